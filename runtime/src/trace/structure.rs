@@ -300,8 +300,8 @@ mod tests {
                         *v
                     }
                 };
-                for count in [HZ * 12.0, HZ * 60.0] {
-                    let values: Vec<f64> = values.iter().take(count as usize).map(round).collect();
+                for count in [6000, 30_000] {
+                    let values: Vec<f64> = values.iter().take(count).map(round).collect();
                     let found = structure(&values);
                     let what = format!("{cutoff_hz} Hz {times} times, {of_rms}, {count}");
                     assert!(!found.is_material(), "{what}: {found:?}");
