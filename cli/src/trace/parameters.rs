@@ -1,6 +1,6 @@
 //! Parameters of the last model, as the page of a trace has them.
 
-use super::report::effect;
+use super::report::{effect, effect_name};
 use crate::close_the_loop::Loop;
 use crate::identify::report::{Parameter, identified};
 
@@ -13,22 +13,17 @@ pub(super) struct Found {
 
 /// Those of all findings that the amended spec declares, shapes among them: the fit has these as fixed, and gives them no row.
 pub(super) fn found(closed: &Loop) -> Vec<Found> {
-    let findings = &closed.verdict.findings;
-    let model = &closed.after().arm.compiled().model;
-    // They are its last effects.
-    let Some(first) = model.effects.len().checked_sub(findings.len()) else {
-        return Vec::new();
-    };
-    let all = findings.iter().enumerate().flat_map(|(place, finding)| {
-        let effect_name = model.effect_name(first + place);
+    let findings = closed.verdict.findings.iter().enumerate();
+    let all = findings.filter_map(|(place, finding)| {
+        let effect_name = effect_name(closed, place)?;
         let parameters = effect(finding, closed, place).parameters.into_iter();
-        parameters.map(move |own| Found {
+        Some(parameters.map(move |own| Found {
             name: format!("{effect_name}.{}", own.name),
             value: own.value,
             std: own.std,
-        })
+        }))
     });
-    all.collect()
+    all.flatten().collect()
 }
 
 /// All of the last model. What was found has the deviations of the verdict, which know of its shapes; those of a fit that has the shapes

@@ -335,20 +335,19 @@ fn fault(fault: &DataFault) -> EffectReport<'_> {
     }
 }
 
-/// Value and standard deviation of a finding's parameter in the amended model, whose last effects are the findings; none for
-/// a lead, which is not declared.
+/// Name of a finding in the amended model, whose last effects are the findings; none of a lead, which is not declared.
+pub(super) fn effect_name(closed: &Loop, place: usize) -> Option<String> {
+    let model = &closed.after().arm.compiled().model;
+    let findings = closed.verdict.findings.len();
+    let first = model.effects.len().checked_sub(findings)?;
+    (place < findings).then(|| model.effect_name(first + place))
+}
+
+/// Value and standard deviation of a finding's parameter in the amended model.
 fn identified(closed: &Loop, place: usize, name: &str) -> Option<(f64, f64)> {
-    let after = closed.after();
-    let model = &after.arm.compiled().model;
-    let first = model
-        .effects
-        .len()
-        .checked_sub(closed.verdict.findings.len())?;
-    if place >= closed.verdict.findings.len() {
-        return None;
-    }
-    let full = format!("{}.{name}", model.effect_name(first + place));
-    let parameter = after
+    let full = format!("{}.{name}", effect_name(closed, place)?);
+    let parameter = closed
+        .after()
         .estimate
         .parameters
         .iter()

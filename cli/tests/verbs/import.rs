@@ -59,6 +59,14 @@ fn import_refuses_what_it_cannot_use() {
         ),
         "{said}"
     );
+    // A camera on a joint of its own beside the rest of the arm is no finger.
+    let turning = gripper.replace("type=\"prismatic\"", "type=\"revolute\"");
+    folder.write("camera.urdf", &turning);
+    let said = folder.refuse(&["import", "camera.urdf", "-o", "arm.robot"]);
+    assert!(
+        said.contains("with --tip, one of `left`, `right`"),
+        "{said}"
+    );
     let said = folder.refuse(&["import", "arm.urdf", "-o", "arm.robot", "--tip", "hand"]);
     assert!(said.contains("the URDF has no link `hand`"), "{said}");
     let said = folder.refuse(&[

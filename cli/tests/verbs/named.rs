@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::common::{CART, Folder, cart_with, close, folding, json, moved, tones};
+use crate::common::{
+    CART, Folder, cart_breaking_away, cart_with, close, folding, json, moved, tones,
+};
 
 /// What `trace` says of a log by a spec, as text and as JSON.
 fn told(spec: &str, log: &str) -> (String, Value) {
@@ -103,13 +105,7 @@ fn a_further_log_at_another_speed_parts_laws_that_one_log_does_not() {
 /// The rise at breakaway is in pulses of milliseconds, of which the filtered fit sees little.
 #[test]
 fn a_law_of_short_pulses_is_named_by_raw_errors() {
-    let spec = CART.replace(
-        "viscous_friction on rail;",
-        "viscous_friction on rail; coulomb_friction on rail;",
-    );
-    let tones = [[0.2, 2.3, 0.0], [0.11, 5.17, 1.0], [0.05, 9.7, 2.0]];
-    let rise = |dq: f64| 0.6 * (-(dq / 0.02).powi(2)).exp();
-    let log = cart_with(200, 40, &tones, |_, dq| (1.0 + rise(dq)) * dq.signum());
+    let (spec, log) = cart_breaking_away();
     let out = traced(&spec, &log);
     assert_eq!(kinds(&out, "effects"), ["stribeck"], "{out}");
 }

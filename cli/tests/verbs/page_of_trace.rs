@@ -2,7 +2,7 @@
 
 use scraper::Html;
 
-use crate::common::{CART, Folder, cart_log, cart_with};
+use crate::common::{CART, Folder, cart_breaking_away, cart_log};
 use crate::delays::late;
 use crate::page::{all, text};
 use crate::page_of_identify::cells;
@@ -81,13 +81,7 @@ fn a_verdict_has_units_and_the_fall_of_the_error() {
 /// The shapes of what was found have rows among the parameters, and each interval is the one of the verdict.
 #[test]
 fn shapes_of_what_was_found_are_parameters_with_the_intervals_of_the_verdict() {
-    let spec = CART.replace(
-        "viscous_friction on rail;",
-        "viscous_friction on rail; coulomb_friction on rail;",
-    );
-    let tones = [[0.2, 2.3, 0.0], [0.11, 5.17, 1.0], [0.05, 9.7, 2.0]];
-    let rise = |dq: f64| 0.6 * (-(dq / 0.02).powi(2)).exp();
-    let log = cart_with(200, 40, &tones, |_, dq| (1.0 + rise(dq)) * dq.signum());
+    let (spec, log) = cart_breaking_away();
     let folder = Folder::new();
     folder.write("cart.robot", &spec);
     folder.write("log.csv", &log);

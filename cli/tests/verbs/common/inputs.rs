@@ -96,6 +96,18 @@ pub fn cart_with(
     text
 }
 
+/// A cart whose spec has dry friction, and a log of it that has a Stribeck curve besides.
+pub fn cart_breaking_away() -> (String, String) {
+    let spec = super::CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail; coulomb_friction on rail;",
+    );
+    let tones = [[0.2, 2.3, 0.0], [0.11, 5.17, 1.0], [0.05, 9.7, 2.0]];
+    let rise = |dq: f64| 0.6 * (-(dq / 0.02).powi(2)).exp();
+    let log = cart_with(200, 40, &tones, |_, dq| (1.0 + rise(dq)) * dq.signum());
+    (spec, log)
+}
+
 /// Between -1/2 and 1/2: a linear congruence is random enough for a sensor.
 pub fn white(state: &mut u64) -> f64 {
     *state = state

@@ -9,8 +9,8 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 pub use inputs::{
-    CART, MEASURED_PENDULUM, PENDULUM, URDF, cart_log, cart_with, folding, moved, tones,
-    two_joints_waving, white,
+    CART, MEASURED_PENDULUM, PENDULUM, URDF, cart_breaking_away, cart_log, cart_with, folding,
+    moved, tones, two_joints_waving, white,
 };
 
 /// What a run left behind.
