@@ -305,4 +305,24 @@ mod tests {
             }
         }
     }
+
+    /// What rises with the frequency counts where noise above is seen to be no steeper than first order, and not behind a filter.
+    #[test]
+    fn what_rings_is_told_beside_noise_that_is_no_steeper_than_first_order() {
+        let beyond = |parts: [f64; 4], above: f64| {
+            let spectrum = Spectrum {
+                motion: 1.0,
+                parts,
+                reference: 0.01,
+                above,
+            };
+            spectrum.beyond_noise()
+        };
+        // Less noise of first order, 0.01 (1.2 x 2.5) / (0.38 x 0.8), in a part that is 0.42 wide; the others have no more than noise may have.
+        let rings = [0.1, 0.1, 0.1, 2.0];
+        let wanted = (2.0 - 0.03 / 0.304) * 0.42;
+        assert!((beyond(rings, 0.003) - wanted).abs() < 1e-12);
+        assert!(beyond(rings, 1e-4).abs() <= 0.0);
+        assert!(beyond([2.0; 4], 0.003).abs() <= 0.0);
+    }
 }
