@@ -105,7 +105,7 @@ pub(crate) fn answer(urdf: &str) -> Answer {
     let imported = match import(urdf, &options) {
         Err(ImportError::Branches { tips, .. }) => {
             let tip = tips.first().expect("a tree that branches has tips");
-            options.tip = Some(tip.trim_matches('`').to_owned());
+            options.tip = Some(tip.clone());
             import(urdf, &options)
         }
         other => other,

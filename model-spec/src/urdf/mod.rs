@@ -86,10 +86,12 @@ pub enum ImportError {
     #[error("{0}")]
     Structure(String),
     /// Several chains start at the base.
-    #[error("the tree branches at link `{at}`: choose the chain's end with --tip, one of {}", .tips.join(", "))]
+    #[error("the tree branches at link `{at}`: choose the chain's end with --tip, one of {}", ends(at, *.is_hand, tips))]
     Branches {
         /// The link where chains part.
         at: String,
+        /// Whether that link is a hand, as what branches off are its fingers: the arm ends there.
+        is_hand: bool,
         /// Last moving links of the chains.
         tips: Vec<String>,
     },
@@ -121,6 +123,14 @@ pub enum ImportError {
     /// The spec that comes out breaks a rule of the language.
     #[error("the spec that it would become is refused, in lines that are not written:\n{0}")]
     Refused(Diagnostics),
+}
+
+/// The links that a chain can end at, the likeliest first.
+fn ends(at: &str, is_hand: bool, tips: &[String]) -> String {
+    let hand = is_hand.then(|| format!("`{at}` (the arm without what moves on it)"));
+    let tips = tips.iter().map(|tip| format!("`{tip}`"));
+    let ends: Vec<String> = hand.into_iter().chain(tips).collect();
+    ends.join(", ")
 }
 
 /// A URDF as a spec.

@@ -223,26 +223,20 @@ impl<'a> Tree<'a> {
                 [] => return Ok(at),
                 [joint] => at = joint.child.link.as_str(),
                 several => {
-                    let tips = several
-                        .iter()
-                        .flat_map(|joint| self.tips(joint))
-                        .map(|tip| format!("`{tip}`"));
+                    let tips = several.iter().flat_map(|joint| self.tips(joint));
                     return Err(ImportError::Branches {
                         at: at.to_owned(),
-                        tips: self
-                            .hand(base, at, several)
-                            .into_iter()
-                            .chain(tips)
-                            .collect(),
+                        is_hand: self.is_hand(base, at, several),
+                        tips: tips.map(str::to_owned).collect(),
                     });
                 }
             }
         }
     }
 
-    /// The link that carries branches, where these are fingers of a gripper: shorter than the way to them, and all of them but one at most slide
-    /// or move with another joint, as neither a camera on a joint of its own nor the rest of an arm does.
-    fn hand(&self, base: &str, at: &str, branches: &[&&'a Joint]) -> Option<String> {
+    /// Whether the branches that a link carries are fingers of a gripper: shorter than the way to them, and all of them but one at most slide or
+    /// move with another joint, as neither a camera on a joint of its own nor the rest of an arm does.
+    fn is_hand(&self, base: &str, at: &str, branches: &[&&'a Joint]) -> bool {
         let way = self.joints_above(at);
         let way = way.take_while(|joint| joint.child.link != base);
         let moves = |joint: &&Joint| joint.joint_type != JointType::Fixed;
@@ -251,8 +245,7 @@ impl<'a> Tree<'a> {
         let is_finger =
             |joint: &&&&Joint| joint.joint_type == JointType::Prismatic || joint.mimic.is_some();
         let are_fingers = branches.iter().filter(is_finger).count() + 1 >= branches.len();
-        (are_fingers && behind > deepest.unwrap_or(0))
-            .then(|| format!("`{at}` (the arm without what moves on it)"))
+        are_fingers && behind > deepest.unwrap_or(0)
     }
 
     /// How many joints move on the longest way that begins with one.
