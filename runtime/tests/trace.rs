@@ -191,6 +191,28 @@ fn a_law_that_hides_in_slow_noise_is_missing_all_the_same() {
     }
 }
 
+/// The zero of a torque sensor wanders so slowly that a short log has little else than its mean, which no offset explains beyond chance, and
+/// which is in a curve of any quantity.
+#[test]
+fn a_zero_that_is_off_by_chance_follows_no_motion() {
+    for seed in 1..7 {
+        let verdict = trace(&Plant {
+            seed,
+            seconds: 12,
+            white: 0.02,
+            colored: 0.1,
+            correlated_s: 20.0,
+            ..Plant::default()
+        });
+        let told = (&verdict.findings, &verdict.left);
+        assert_eq!(
+            verdict.outcome,
+            Outcome::NothingMissing,
+            "{seed}: {told:#?}"
+        );
+    }
+}
+
 /// A law that takes a part off the error, beside one of no library that hides in slow noise: what is left most of may be another law.
 #[test]
 fn a_name_that_leaves_most_is_doubted_for_what_hides_in_slow_noise() {

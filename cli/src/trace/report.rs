@@ -54,6 +54,8 @@ pub(crate) struct Report<'a> {
 #[derive(Serialize)]
 struct WhereReport<'a> {
     joint: usize,
+    /// Of a constant.
+    level_share: f64,
     /// The largest first.
     shares: Vec<ShareReport>,
     /// Terms of the arm's equations that say most of it, the largest share first.
@@ -290,6 +292,7 @@ fn whereabouts(one: &Whereabouts) -> WhereReport<'_> {
     };
     WhereReport {
         joint: one.joint + 1,
+        level_share: one.level,
         shares: one.shares.iter().map(share).collect(),
         terms: one.terms.iter().map(term).collect(),
         peak_hz: one.peak_hz,

@@ -106,7 +106,10 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
         )
     });
     let term = term.filter(|(percent, _)| *percent >= LEAST_PERCENT);
-    let told: Vec<String> = term.into_iter().map(|(_, told)| told).chain(told).collect();
+    let level = 100.0 * one.level;
+    let level = (level >= LEAST_PERCENT).then(|| format!("{level:.0} % a constant"));
+    let term = term.map(|(_, told)| told);
+    let told: Vec<String> = level.into_iter().chain(term).chain(told).collect();
     let told = if told.is_empty() {
         "no function of a position, velocity, acceleration, load or time".to_owned()
     } else {

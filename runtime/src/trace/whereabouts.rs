@@ -144,6 +144,8 @@ pub struct TermShare {
 pub struct Whereabouts {
     /// The joint, from 0.
     pub joint: usize,
+    /// Share of the residual's power that one constant takes off, which is in every curve.
+    pub level: f64,
     /// Every quantity that is not at rest, the one of the largest share first.
     pub shares: Vec<Share>,
     /// Terms of the arm's equations that say most of it, the one of the largest share first.
@@ -213,6 +215,7 @@ impl Search<'_> {
             (1.0 - left).max(0.0)
         };
         let terms = self.terms();
+        let level = self.level();
         let steps = self.steps(state);
         let of_joint = |joint: usize| {
             let quantities = self.quantities(joint).chain(self.pairs(joint));
@@ -247,8 +250,10 @@ impl Search<'_> {
             terms.sort_by(|a, b| b.share.total_cmp(&a.share));
             terms.truncate(MOST_TERMS);
             let (peak_hz, peak_share) = self.peak(state, joint);
+            let level = beside(joint, vec![level.clone()]).held_out(sigma);
             Whereabouts {
                 joint,
+                level: share(joint, &level),
                 shares,
                 terms,
                 peak_hz,
@@ -271,6 +276,18 @@ impl Search<'_> {
             }
         }
         names.into_iter().zip(all).collect()
+    }
+
+    /// A constant of 1, filtered.
+    fn level(&self) -> Vec<f64> {
+        let mut all = Vec::new();
+        let mut filtered = Vec::new();
+        for log in &self.prepared {
+            let ones = vec![1.0; log.motion.time.len()];
+            log.shared.apply(&ones, &mut filtered);
+            all.extend_from_slice(&filtered);
+        }
+        all
     }
 
     /// What a joint's residual is asked for.
@@ -300,8 +317,8 @@ impl Search<'_> {
     }
 
     /// Whereabouts on the joints that are told, and on others that are asked if a function of the motion has so large a share in them that it
-    /// would take as much off their raw errors as makes a doubt, beyond what time has: a law that no structure shows, as noise is correlated
-    /// over as long.
+    /// would take as much off their raw errors as makes a doubt, beyond what time or a constant has: a law that no structure shows, as noise is
+    /// correlated over as long.
     pub(super) fn unknown_functions(
         &self,
         state: &State,
@@ -324,8 +341,9 @@ impl Search<'_> {
                 let shares = one.shares.iter().filter(|share| is(share.of));
                 shares.map(|share| share.share).fold(0.0, f64::max)
             };
-            // A zero that wanders is as much a function of what is as slow.
-            let of_motion = most(&|of| of != Quantity::Time) - most(&|of| of == Quantity::Time);
+            // A zero that wanders is as much a function of what is as slow, and one that is off is in every curve.
+            let of_zero = most(&|of| of == Quantity::Time).max(one.level);
+            let of_motion = most(&|of| of != Quantity::Time) - of_zero;
             is_told(&one.joint) || takes(one.joint, of_motion.max(0.0)) >= DOUBT_PERCENT
         });
         found
