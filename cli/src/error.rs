@@ -6,7 +6,10 @@ use robot_model::identify::IdentifyError;
 use robot_model::log::LogError;
 use robot_model_spec::Diagnostics;
 use robot_model_spec::suggest::nearest;
+use robot_model_spec::urdf::Fault;
 use thiserror::Error;
+
+use crate::snippet::{self, Mark};
 
 /// Why a command ended without a result. Exit code 1, the message on stderr.
 #[derive(Debug, Error)]
@@ -50,6 +53,14 @@ pub enum Error {
         /// What is wrong with it, with the part that is at fault.
         reason: String,
     },
+    /// A URDF cannot be read.
+    #[error("{}: the URDF does not parse: {fault}", path.display())]
+    Urdf {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, with the line.
+        fault: Fault,
+    },
     /// An argument that is well formed and makes no sense.
     #[error("{0}")]
     Argument(String),
@@ -60,25 +71,60 @@ const COLUMNS_HELP: &str = "  = help: say which columns are meant, in the `log` 
      `q = { columns = [\"axis1\", \"axis2\"], unit = \"deg\" }`";
 
 impl Error {
-    /// The message as stderr shows it; spec mistakes carry their own headings.
+    /// The message as stderr shows it, the line at fault below; spec mistakes carry their own headings.
     #[must_use]
     pub fn render(&self, color: bool) -> String {
+        if let Self::Spec(diagnostics) = self {
+            return diagnostics.render(color);
+        }
+        let parts = [self.snippet(color), self.help()];
+        let parts = parts.into_iter().flatten().map(|part| format!("\n{part}"));
+        format!("error: {self}{}", parts.collect::<String>())
+    }
+
+    /// The line of a text that is at fault.
+    fn snippet(&self, color: bool) -> Option<String> {
         match self {
-            Self::Spec(diagnostics) => diagnostics.render(color),
+            Self::Log(error) => {
+                let place = error.place()?;
+                let mark = place.words.map_or(Mark::Line, Mark::Words);
+                snippet::render(Path::new(place.source_name), place.line, mark, color)
+            }
+            Self::Json {
+                path,
+                line: Some((line, column)),
+                ..
+            } => {
+                let line = u64::try_from(*line).ok()?;
+                snippet::render(path, line, Mark::Column(*column), color)
+            }
+            Self::Urdf { path, fault } => {
+                // What a reason begins with is what stands there, mostly.
+                let quoted = fault.reason.split('`').nth(1);
+                let mark = quoted.map_or(Mark::Line, Mark::Words);
+                snippet::render(path, fault.line?, mark, color)
+            }
+            _ => None,
+        }
+    }
+
+    /// What to do, where that takes more than a sentence.
+    fn help(&self) -> Option<String> {
+        match self {
             Self::Log(LogError::Misspelled { lines, .. } | LogError::NoSuchJoint { lines, .. })
                 if !lines.is_empty() =>
             {
                 let lines = lines.iter().map(|line| format!("\n      {line}"));
                 let lines: String = lines.collect();
-                format!(
-                    "error: {self}\n  = help: a `robot-model.toml` beside the file names the columns as they are, and the file stays as it is; the \
+                Some(format!(
+                    "  = help: a `robot-model.toml` beside the file names the columns as they are, and the file stays as it is; the \
                      `log {{ .. }}` of the spec can say the same:\n\n      [log]{lines}\n"
-                )
+                ))
             }
             Self::Log(LogError::MissingColumns { .. } | LogError::NoSuchJoint { .. }) => {
-                format!("error: {self}\n{COLUMNS_HELP}")
+                Some(COLUMNS_HELP.to_owned())
             }
-            other => format!("error: {other}"),
+            _ => None,
         }
     }
 

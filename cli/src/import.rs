@@ -106,6 +106,10 @@ impl Import {
         match error {
             // Its message begins with the argument, which is not in the URDF.
             ImportError::Effects(_) => Error::Argument(error.to_string()),
+            ImportError::Parse(fault) => Error::Urdf {
+                path: self.urdf.clone(),
+                fault,
+            },
             other => Error::Argument(format!("{}: {other}", self.urdf.display())),
         }
     }

@@ -39,6 +39,7 @@ mod report;
 mod rounds;
 mod show;
 mod simulate;
+mod snippet;
 mod spec;
 mod trace;
 mod units;

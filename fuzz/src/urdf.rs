@@ -157,13 +157,13 @@ pub(crate) fn answer(urdf: &str) -> Answer {
             remarks.extend(written.notes.iter().map(|said| skeleton(said)));
         }
         // Whoever writes into a text reads it more strictly than whoever takes numbers out of it.
-        Err(ExportError::Parse(said)) => {
+        Err(ExportError::Parse(fault)) => {
             assert!(
-                said.starts_with("line "),
+                fault.line.is_some(),
                 "a message that names no place: {}",
-                skeleton(&said)
+                skeleton(&fault.reason)
             );
-            remarks.push(skeleton(&said));
+            remarks.push(skeleton(&fault.to_string()));
         }
         Err(error) => remarks.push(skeleton(&error.to_string())),
     }

@@ -167,9 +167,15 @@ impl Export {
             (Format::Mjcf, _) => Ok((mjcf(model, numbers).map_err(refused)?, Vec::new())),
             (Format::Urdf, Some(path)) => {
                 let original = read_text(path)?;
+                let written =
+                    write_back(&original, model, numbers).map_err(|error| match error {
+                        ExportError::Parse(fault) => Error::Urdf {
+                            path: path.clone(),
+                            fault,
+                        },
+                        other => Error::Argument(format!("{}: {other}", path.display())),
+                    })?;
                 let path = path.display();
-                let written = write_back(&original, model, numbers)
-                    .map_err(|error| Error::Argument(format!("{path}: {error}")))?;
                 let notes = written.notes.iter().map(|note| format!("{path}: {note}"));
                 Ok((written.urdf, notes.collect()))
             }

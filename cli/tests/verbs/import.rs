@@ -43,6 +43,14 @@ fn import_refuses_what_it_cannot_use() {
         said.starts_with("error: broken.urdf: the URDF does not parse: "),
         "{said}"
     );
+    // The line is shown, and in it what is at fault.
+    folder.write("unit.urdf", &URDF.replacen("xyz=\"", "xyz=\"1m ", 1));
+    let said = folder.refuse(&["import", "unit.urdf", "-o", "arm.robot"]);
+    let [line, caret] = ["xyz=\"1m ", "^^^^^^^^"].map(|sign| {
+        let lines = said.lines().skip(1).filter_map(|line| line.find(sign));
+        lines.collect::<Vec<usize>>()
+    });
+    assert!(line.len() == 1 && line == caret, "{said}");
     // Fingers are no end of an arm; what carries them is.
     let fingers = ["left", "right"].map(|side| {
         format!(

@@ -180,3 +180,29 @@ fn logs_that_say_nothing_are_refused() {
         assert!(said.contains("excites none of the 2 unknowns"), "{said}");
     }
 }
+
+#[test]
+fn the_line_of_a_log_that_is_at_fault_is_shown() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let refused = |text: &str| {
+        folder.write("log.csv", text);
+        folder.refuse(&["identify", "cart.robot", "log.csv"])
+    };
+    assert_eq!(
+        refused("time,q1,tau1\n0,1,2\n0.01,O.9,3\n"),
+        "reading log.csv\nerror: log.csv:3: `O.9` in column `q1` is not a number; repair or remove the row\n  \
+         |\n3 | 0.01,O.9,3\n  |      ^^^\n"
+    );
+    // The way out stands below it.
+    let said = refused("time,q1,tua1\n0,1,2\n0.01,1,3\n");
+    let [shown, help] = [
+        "\n1 | time,q1,tua1\n  |         ^^^^\n",
+        "= help: a `robot-model.toml`",
+    ]
+    .map(|part| said.find(part).unwrap_or_else(|| panic!("{said}")));
+    assert!(shown < help, "{said}");
+    // Rows that are too short are nothing to point into.
+    let said = refused("time,q1,tau1\n0,1,2\n0.01,1\n");
+    assert!(said.ends_with("\n3 | 0.01,1\n  | ^\n"), "{said}");
+}

@@ -43,7 +43,8 @@ fn eval_takes_standard_and_base_parameters() {
         folder.refuse(&eval(
             r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "cart.mass": 3}"#
         )),
-        "error: parameters.json:1:46: Cart has no parameter `cart.mass`; is `cart.m` meant?\n"
+        "error: parameters.json:1:46: Cart has no parameter `cart.mass`; is `cart.m` meant?\n  |\n1 | {\"cart.m\": 3, \
+         \"rail.viscous_friction.fv\": 5, \"cart.mass\": 3}\n  |                                              ^\n"
     );
     assert!(
         folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
@@ -147,7 +148,8 @@ fn slips_in_a_parameter_file_are_told() {
     folder.write("parameters.json", large);
     assert_eq!(
         folder.refuse(&CART_WITH_PARAMETERS),
-        "error: parameters.json:1:16: it is no JSON: number out of range; repair it here\n"
+        "error: parameters.json:1:16: it is no JSON: number out of range; repair it here\n  \
+           |\n1 | {\"cart.m\": 1e999, \"rail.viscous_friction.fv\": 5}\n  |                ^\n"
     );
 }
 
@@ -217,8 +219,12 @@ fn parts_of_a_set_of_base_parameters_are_told() {
         ),
     ] {
         folder.write("parameters.json", text);
-        let said = format!("error: parameters.json{said}\n");
-        assert_eq!(folder.refuse(&eval), said);
+        let refused = folder.refuse(&eval);
+        let first = refused.lines().next();
+        assert_eq!(
+            first,
+            Some(format!("error: parameters.json{said}").as_str())
+        );
     }
 }
 

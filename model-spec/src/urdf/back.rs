@@ -45,7 +45,7 @@ pub fn write_back(
     chain_of(model)?;
     let parse = |said: String| ExportError::Parse(place::explain(urdf, &said));
     size::check(urdf).map_err(|error| match error {
-        ImportError::Parse(said) => ExportError::Parse(said),
+        ImportError::Parse(fault) => ExportError::Parse(fault),
         other => ExportError::Original(other.to_string()),
     })?;
     let robot = urdf_rs::read_from_string(urdf).map_err(|error| parse(error.to_string()))?;

@@ -11,6 +11,7 @@ mod body;
 mod edit;
 mod effects;
 mod far;
+mod fault;
 mod held;
 mod mimic;
 mod place;
@@ -22,6 +23,7 @@ mod write;
 use thiserror::Error;
 
 pub use back::{WrittenBack, write_back};
+pub use fault::Fault;
 
 use crate::diagnostic::Diagnostics;
 
@@ -73,7 +75,7 @@ pub enum Inertials {
 pub enum ImportError {
     /// Not XML, or not URDF.
     #[error("the URDF does not parse: {0}")]
-    Parse(String),
+    Parse(Fault),
     /// A name that the URDF does not have.
     #[error("the URDF has no link `{name}`; {help}")]
     UnknownLink {

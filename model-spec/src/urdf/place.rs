@@ -7,7 +7,7 @@ use xml::common::Position as _;
 use xml::name::OwnedName;
 use xml::reader::{EventReader, XmlEvent};
 
-use super::ImportError;
+use super::{Fault, ImportError};
 
 /// What an attribute has to be.
 #[derive(Clone, Copy)]
@@ -160,16 +160,17 @@ pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
             Ok(XmlEvent::EndDocument) | Err(_) => return Ok(()),
             Ok(_) => continue,
         };
-        return Err(ImportError::Parse(format!("line {line}: {fault}")));
+        return Err(ImportError::Parse(Fault::in_line(line, fault)));
     }
 }
 
 /// Where and why `urdf` cannot be read; `said`, the library's words, where no rule of this file is broken.
-pub(super) fn explain(urdf: &str, said: &str) -> String {
+pub(super) fn explain(urdf: &str, said: &str) -> Fault {
     if let Some(declared) = declared_entity(urdf) {
-        let line = urdf[..declared].matches('\n').count() + 1;
-        return format!(
-            "line {line}: `<!ENTITY ..>` declares an entity, and URDFs are read without them: write what it stands for in its place"
+        let line = urdf[..declared].matches('\n').count() as u64 + 1;
+        return Fault::in_line(
+            line,
+            "`<!ENTITY ..>` declares an entity, and URDFs are read without them: write what it stands for in its place",
         );
     }
     let mut reader = EventReader::from_str(urdf);
@@ -208,15 +209,15 @@ pub(super) fn explain(urdf: &str, said: &str) -> String {
                 let fault = missing_part(&open, &owner);
                 open.pop().and_then(|end| Some((end.line, fault?)))
             }
-            Ok(XmlEvent::EndDocument) => return said.to_owned(),
+            Ok(XmlEvent::EndDocument) => return Fault::of_all(said),
             Ok(_) => None,
             Err(error) => {
                 let line = error.position().row + 1;
-                return format!("line {line}: {}", not_xml(error.msg(), &open));
+                return Fault::in_line(line, not_xml(error.msg(), &open));
             }
         };
         if let Some((line, fault)) = fault {
-            return format!("line {line}: {fault}");
+            return Fault::in_line(line, fault);
         }
     }
 }

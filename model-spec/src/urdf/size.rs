@@ -3,7 +3,7 @@
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-use super::ImportError;
+use super::{Fault, ImportError};
 
 /// Bytes. Meshes are files of their own; what is left of the largest robots has a tenth of this.
 const LARGEST: usize = 16 * 1024 * 1024;
@@ -24,8 +24,8 @@ const MOST_LINKS: usize = 1000;
 pub(super) fn check(urdf: &str) -> Result<(), ImportError> {
     let refuse = |at: usize, what: String| {
         let lines = urdf.as_bytes()[..at].split(|byte| *byte == b'\n');
-        let line = lines.count();
-        Err(ImportError::Parse(format!("line {line}: {what}")))
+        let line = u64::try_from(lines.count()).unwrap_or(u64::MAX);
+        Err(ImportError::Parse(Fault::in_line(line, what)))
     };
     if urdf.len() > LARGEST {
         let what = format!(
@@ -101,7 +101,7 @@ mod tests {
         let model = crate::load("a.robot", ARM).expect("a sound spec");
         let numbers = crate::export::Numbers::default();
         let back = write_back(urdf, &model, &numbers).expect_err("refused");
-        assert!(matches!(back, ExportError::Parse(said) if said.contains(words)));
+        assert!(matches!(back, ExportError::Parse(fault) if fault.to_string().contains(words)));
     }
 
     /// Links one behind the other.

@@ -1,9 +1,11 @@
 //! What can be wrong with a log, and the words for it.
 
+mod place;
 mod text;
 
 use thiserror::Error;
 
+pub use place::TextPlace;
 pub use text::TextError;
 
 use super::words::{columns, field, hertz, in_unit, joints, list, plural, way_out};

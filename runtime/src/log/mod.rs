@@ -36,7 +36,7 @@ use std::ops::Range;
 use std::path::Path;
 
 pub use columns::{Column, Columns, DriveSignal};
-pub use error::{LogError, TextError};
+pub use error::{LogError, TextError, TextPlace};
 pub use faults::{Fault, LateChannel, Mended, Stretches};
 #[cfg(feature = "mcap")]
 pub use mcap::{JointStates, NotABag};

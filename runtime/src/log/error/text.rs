@@ -4,6 +4,21 @@ use thiserror::Error;
 
 use super::super::words::{field, list};
 
+/// How a file with such a byte becomes a text that is read.
+fn to_text(source_name: &str, byte: u8) -> String {
+    let encoding = match byte {
+        0 => "utf16",
+        0x80.. => "latin1",
+        _ => {
+            return "such a byte is in no text at all: name the file that has the numbers"
+                .to_owned();
+        }
+    };
+    format!(
+        "save the log as CSV in UTF-8, or convert it: `iconv -f {encoding} -t utf8 {source_name} > utf8.csv`"
+    )
+}
+
 /// Why a text is no table of numbers. `source_name` is the file, `line` counts from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -70,9 +85,8 @@ pub enum TextError {
     },
     /// Bytes that are no text.
     #[error(
-        "{source_name}:{line}: byte 0x{byte:02x} in `{text}` is no UTF-8 text; save the log as CSV in UTF-8, or convert it: \
-         `iconv -f {} -t utf8 {source_name} > utf8.csv`",
-        if *.byte == 0 { "utf16" } else { "latin1" }
+        "{source_name}:{line}: byte 0x{byte:02x} in `{text}` is no UTF-8 text; {}",
+        to_text(source_name, *.byte)
     )]
     NotText {
         /// The file.
