@@ -1,8 +1,10 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
+mod found;
+
 use robot_model::columns::{Arm, Columns};
 use robot_model::identify::{Errors, Estimate, Identified, Identify};
-use robot_model::log::Log;
+use robot_model::log::{Fault, Log};
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
 use robot_model_codegen::compile_for_rows;
 use robot_model_spec::amend::{Amendment, amend};
@@ -41,6 +43,8 @@ pub struct Loop {
     pub before: Stage,
     /// What is wrong with the logs; the verdict is of logs without it.
     pub faults: Vec<DataFault>,
+    /// What the gate noted of each log, by the log's name, whether or not it matters.
+    pub noted: Vec<(String, Fault)>,
     /// What the logs were looked through for, and what that found.
     pub checks: Vec<Check>,
     /// Another way to read the logs, with which the declared model explains them far better.
@@ -56,6 +60,8 @@ pub struct Loop {
     pub amended: String,
     /// None where the spec did not change.
     pub changed: Option<Stage>,
+    /// The lead that the tracer named, and of which nothing was left once the arm was identified with it; by its place.
+    pub vanished: Option<usize>,
 }
 
 impl Loop {
@@ -143,19 +149,21 @@ pub fn close(
         on_time = Log::all_with_turn_speeds(&logs, &[]);
     }
     let checks = checks(arm, &mended, estimate, &faults);
+    let noted = mended.iter().flat_map(|one| {
+        let faults = one.faults.iter().cloned();
+        faults.map(|fault| (one.log.source.clone(), fault))
+    });
+    let noted = noted.collect();
     let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
     let is_last = reading.is_some() || faults.iter().any(|fault| fault.is_last);
     let verdict = trace(source_name, text, &on_time, !is_last, progress)?;
-    let unseen = unseen.map(|log| log.with_turn_speeds(verdict.turn_speeds.clone()));
-    let found = verdict.findings.iter();
-    let amendments: Vec<Amendment> = declared
-        .into_iter()
-        .chain(found.map(|finding| amendment(finding, arm)))
-        .collect();
-    let amended = amend(source_name, text, &amendments)?;
-    let changed = if amendments.is_empty() {
-        None
-    } else {
+    let with = |findings: &[Finding]| -> Result<(String, Option<Stage>), Error> {
+        let found = findings.iter().map(|finding| amendment(finding, arm));
+        let amendments: Vec<Amendment> = declared.iter().cloned().chain(found).collect();
+        let amended = amend(source_name, text, &amendments)?;
+        if amendments.is_empty() {
+            return Ok((amended, None));
+        }
         progress.step("identifying the amended model");
         let arm = compiled(source_name, &amended)?;
         // The same band as before, so that the errors are those of the same samples, but for links that follow the load, which have
@@ -164,13 +172,33 @@ pub fn close(
             bands: (!arm.follows_load()).then_some(estimate.bands),
             ..Identify::default()
         };
-        let sound = Log::all_with_turn_speeds(&sound, &verdict.turn_speeds);
+        // How joints turn round without what was missing is another thing.
+        let sound = Log::all_with_turn_speeds(&sound, &[]);
+        let speeds = Identify::default().turn_speeds(&arm, &sound)?;
+        let sound = Log::all_with_turn_speeds(&sound, &speeds);
+        let unseen = unseen.clone().map(|log| log.with_turn_speeds(speeds));
         let estimate = identify.fit(&arm, &sound)?;
-        Some(Stage::judged(arm, estimate, &sound, unseen.as_ref())?)
+        let stage = Stage::judged(arm, estimate, &sound, unseen.as_ref())?;
+        Ok((amended, Some(stage)))
     };
+    let (mut amended, mut changed) = with(&verdict.findings)?;
+    // What vanishes where the arm is identified with it is not what the tracer saw.
+    let found = changed.as_ref();
+    let vanished = found.and_then(|stage| stage.vanished(&verdict.findings));
+    if vanished.is_some() {
+        (amended, changed) = with(&[])?;
+    }
+    let verdict = if vanished.is_some() {
+        verdict.unexplained()
+    } else {
+        verdict
+    };
+    let speeds = &changed.as_ref().unwrap_or(&before).turn_speeds;
+    let unseen = unseen.map(|log| log.with_turn_speeds(speeds.clone()));
     Ok(Loop {
         before,
         faults,
+        noted,
         checks,
         reading,
         traced: on_time,
@@ -178,6 +206,7 @@ pub fn close(
         verdict,
         amended,
         changed,
+        vanished,
     })
 }
 

@@ -9,7 +9,7 @@ use crate::progress::Progress;
 
 /// What a sensor or a recorder did.
 #[derive(Serialize)]
-pub(super) struct FaultReport<'a> {
+pub(crate) struct FaultReport<'a> {
     log: &'a str,
     kind: &'static str,
     channel: &'a str,
@@ -164,7 +164,7 @@ pub(super) fn late(estimate: &Estimate) -> Vec<Fault> {
 }
 
 /// Faults with the logs that they are of.
-pub(super) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> {
+pub(crate) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> {
     let told = faults.iter().map(|(log, fault)| FaultReport {
         log,
         kind: fault.kind(),

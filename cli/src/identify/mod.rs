@@ -3,7 +3,7 @@
 pub(crate) mod at_turns;
 mod brief;
 mod coarse;
-mod data_faults;
+pub(crate) mod data_faults;
 pub(crate) mod doubts;
 mod drive_gains;
 pub(crate) mod factor_file;

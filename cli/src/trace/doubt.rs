@@ -23,6 +23,7 @@ const PART: f64 = 0.25;
 pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
     let of_logs = closed.reading.clone().into_iter();
     let of_logs = of_logs
+        .chain(vanished(closed))
         .chain(said_of_doubtful(closed))
         .chain(impossible(closed))
         .chain(of_springs(closed));
@@ -30,6 +31,15 @@ pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
         .chain(not_borne_out(closed))
         .chain(hardly_borne_out(closed))
         .chain(said_of_unlike(closed))
+}
+
+/// That an effect is named no more once the arm was identified with it.
+fn vanished(closed: &Loop) -> Option<String> {
+    let lead = closed.verdict.leads.get(closed.vanished?)?;
+    Some(format!(
+        "{} was named by the trace, and an arm that is identified with it has none of it beyond two deviations: what was traced is another thing, or the motion tells no such law from parameters that the spec has",
+        on_joints(closed, &lead.kind, &lead.joints)
+    ))
 }
 
 /// The law that says that something is missing although it may not be named.

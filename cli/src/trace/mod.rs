@@ -1,6 +1,8 @@
 //! `robot-model trace`: what the model lacks, written into the spec.
 
 mod apart;
+#[cfg(test)]
+pub(crate) mod cart;
 mod doubt;
 mod page;
 mod parameters;

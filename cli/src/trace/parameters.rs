@@ -1,6 +1,5 @@
 //! Parameters of the last model, as the page of a trace has them.
 
-use super::report::{effect, effect_name};
 use crate::close_the_loop::Loop;
 use crate::identify::report::{Parameter, identified};
 
@@ -15,12 +14,12 @@ pub(super) struct Found {
 pub(super) fn found(closed: &Loop) -> Vec<Found> {
     let findings = closed.verdict.findings.iter().enumerate();
     let all = findings.filter_map(|(place, finding)| {
-        let effect_name = effect_name(closed, place)?;
-        let parameters = effect(finding, closed, place).parameters.into_iter();
-        Some(parameters.map(move |own| Found {
-            name: format!("{effect_name}.{}", own.name),
-            value: own.value,
-            std: own.std,
+        let effect_name = closed.effect_name(place)?;
+        let parameters = closed.parameters(finding, place).into_iter();
+        Some(parameters.map(move |(name, value, std)| Found {
+            name: format!("{effect_name}.{name}"),
+            value,
+            std,
         }))
     });
     all.flatten().collect()

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::doubt::{borne_out, unlike};
 use crate::close_the_loop::Loop;
 use crate::data_gate::DataFault;
+use crate::identify::data_faults::{FaultReport, fault_reports};
 
 /// What `--json` writes; a contract. Joints count from 1.
 #[derive(Serialize)]
@@ -35,6 +36,8 @@ pub(crate) struct Report<'a> {
     structure_after: Vec<f64>,
     /// Of what the structure after is a function, for every joint where it matters.
     structure_where: Vec<WhereReport<'a>>,
+    /// What the gate noted of the logs, as `identify` writes it.
+    data_faults: Vec<FaultReport<'a>>,
     /// Another way to read the logs, with which the declared model explains them far better: then nothing else was asked of them.
     reading: Option<&'a str>,
     /// Joints on which leads are together a curve of the joint's position.
@@ -214,10 +217,11 @@ impl<'a> Report<'a> {
                 .iter()
                 .map(|floor| floor.from.name())
                 .collect(),
-            turn_speeds: &verdict.turn_speeds,
+            turn_speeds: &closed.after().turn_speeds,
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),
+            data_faults: fault_reports(&closed.noted),
             reading: closed.reading.as_deref(),
             series: verdict.series.iter().map(|joint| joint + 1).collect(),
             borne_out: borne_out(closed),
@@ -250,15 +254,8 @@ impl Joints {
 
 /// A finding or lead with the values that the amended model was identified with; `place` is its place among both.
 pub(super) fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -> EffectReport<'a> {
-    let parameters = finding.parameters.iter().map(|parameter| {
-        let identified = identified(closed, place, &parameter.name);
-        // The amended spec fixes shapes, so that deviations with it know nothing of theirs.
-        let std = parameter
-            .std
-            .map(|traced| identified.map_or(traced, |(_, std)| std.max(traced)));
-        let value = identified.map_or(parameter.value, |(value, _)| value);
-        ParameterReport::new(&parameter.name, value, std)
-    });
+    let parameters = closed.parameters(finding, place).into_iter();
+    let parameters = parameters.map(|(name, value, std)| ParameterReport::new(name, value, std));
     EffectReport {
         kind: &finding.kind,
         effect: Some(&finding.effect),
@@ -336,26 +333,6 @@ fn fault(fault: &DataFault) -> EffectReport<'_> {
         parameters: delay.collect(),
         evidence: None,
     }
-}
-
-/// Name of a finding in the amended model, whose last effects are the findings; none of a lead, which is not declared.
-pub(super) fn effect_name(closed: &Loop, place: usize) -> Option<String> {
-    let model = &closed.after().arm.compiled().model;
-    let findings = closed.verdict.findings.len();
-    let first = model.effects.len().checked_sub(findings)?;
-    (place < findings).then(|| model.effect_name(first + place))
-}
-
-/// Value and standard deviation of a finding's parameter in the amended model.
-fn identified(closed: &Loop, place: usize, name: &str) -> Option<(f64, f64)> {
-    let full = format!("{}.{name}", effect_name(closed, place)?);
-    let parameter = closed
-        .after()
-        .estimate
-        .parameters
-        .iter()
-        .find(|parameter| parameter.name == full)?;
-    Some((parameter.value, parameter.std))
 }
 
 /// Faults of the logs come before the findings.

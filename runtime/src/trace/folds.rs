@@ -32,6 +32,11 @@ const GAP_SHARE: f64 = 0.08;
 const LEAST_INTERVAL_S: f64 = 0.4;
 const GAP_OF_INTERVAL: f64 = 0.2;
 
+/// A fold says something of a law where its training has this share of the law's power, and folds of a drive's limit are cut so finely, s, that
+/// they do.
+const LEAST_KNOWN: f64 = 0.2;
+const FINER_S: [f64; 4] = [1.6, 0.8, 0.4, 0.2];
+
 /// A law is there where its column is more than this share of the largest value.
 const THERE: f64 = 0.05;
 
@@ -46,10 +51,14 @@ impl Search<'_> {
     /// The folds that a candidate is judged on where they are not those of all.
     ///
     /// A law of the part of a period has blocks of time. What is there once, as a contact is, may be in a single block, so that no fold that
-    /// leaves it out knows anything of it: blocks are short enough that every fold has some of it.
+    /// leaves it out knows anything of it: blocks are short enough that every fold has some of it. So it is with the limit of a drive, which a
+    /// motion may reach at a single place of its period.
     pub(super) fn own_folds(&self, trial: &Trial, segments: &[Segment]) -> Option<Vec<Fold>> {
         if is_of_phase(trial.candidate) {
             return Some(cut(segments, &vec![None; segments.len()]));
+        }
+        if trial.candidate.follows_torque() && !all_know(&self.folds, &trial.entries) {
+            return finer(segments, &self.periods, &trial.entries);
         }
         if trial.presence != Presence::ComesAndGoes || self.periods.iter().all(Option::is_some) {
             return None;
@@ -58,10 +67,35 @@ impl Search<'_> {
         let cuts = segments.iter().zip(&self.periods);
         let cuts = cuts.map(|(segment, period)| match period {
             Some(_) => Cut::new(segment, *period),
-            None => Cut::fine(segment, interval.max(LEAST_INTERVAL_S)),
+            None => Cut::fine(segment, None, interval.max(LEAST_INTERVAL_S)),
         });
         (interval < BLOCK_S).then(|| by(segments, cuts))
     }
+}
+
+/// The coarsest folds of finer intervals whose training has enough of a law; none where it is too short for all.
+fn finer(segments: &[Segment], periods: &[Option<f64>], entries: &[Entry]) -> Option<Vec<Fold>> {
+    let mut folds = FINER_S.iter().map(|interval| {
+        let cuts = segments.iter().zip(periods);
+        let cuts = cuts.map(|(segment, period)| Cut::fine(segment, *period, *interval));
+        by(segments, cuts)
+    });
+    folds.find(|folds| all_know(folds, entries))
+}
+
+/// Whether the training of every fold has enough of a law.
+fn all_know(folds: &[Fold], entries: &[Entry]) -> bool {
+    let entries = || entries.iter().map(|entry| &entry.values);
+    let power = |values: &Vec<f64>| values.iter().map(|v| v * v).sum::<f64>();
+    let all: f64 = entries().map(power).sum();
+    let known = |fold: &Fold| {
+        let powers = entries().map(|values| {
+            let of_row = fold.train.iter().map(|&row| values[row].powi(2));
+            of_row.sum::<f64>()
+        });
+        powers.sum::<f64>() >= LEAST_KNOWN * all
+    };
+    folds.iter().all(known)
 }
 
 /// How long a law is there from its first sample in a log to its last, s, in the log where that is shortest.
@@ -152,8 +186,8 @@ impl Cut {
     }
 
     /// One of intervals that are about so long, s.
-    fn fine(segment: &Segment, interval: f64) -> Self {
-        let whole = Self::new(segment, None);
+    fn fine(segment: &Segment, period: Option<f64>, interval: f64) -> Self {
+        let whole = Self::new(segment, period);
         let intervals = whole_steps((whole.cycle / interval).round()).max(FOLDS);
         Self {
             intervals,
@@ -183,7 +217,10 @@ mod tests {
             let there = rows.iter().filter(|row| (from..from + 160).contains(*row));
             there.count() as f64 / 160.0
         };
-        let fine = by(&segments, segments.iter().map(|one| Cut::fine(one, 0.8)));
+        let fine = by(
+            &segments,
+            segments.iter().map(|one| Cut::fine(one, None, 0.8)),
+        );
         let coarse = cut(&segments, &[None]);
         let mut least_of_coarse = 1.0_f64;
         for from in (0..1440).step_by(7) {
@@ -195,6 +232,38 @@ mod tests {
             least_of_coarse = known.fold(least_of_coarse, f64::min);
         }
         assert!(least_of_coarse < 0.1, "{least_of_coarse}");
+    }
+
+    /// A limit that is reached for 0.7 s of a period of 10 s is in one fold of those of all, which then says nothing of it.
+    #[test]
+    fn every_fold_knows_a_limit_that_is_reached_at_one_place_of_a_period() {
+        let time: Vec<f64> = (0..800).map(|k| f64::from(k) / 40.0).collect();
+        let excess = |from: f64, to: f64| {
+            let there = time.iter().map(|t| {
+                let phase = t.rem_euclid(10.0);
+                f64::from(u8::from((from..to).contains(&phase)))
+            });
+            vec![Entry {
+                joint: 0,
+                column: 0,
+                values: there.collect(),
+            }]
+        };
+        let segments = [Segment {
+            start: 0,
+            time: time.clone(),
+        }];
+        let periods = [Some(10.0)];
+        let limit = excess(6.6, 7.3);
+        assert!(!all_know(&cut(&segments, &periods), &limit));
+        let folds = finer(&segments, &periods, &limit).expect("folds that know it");
+        assert!(all_know(&folds, &limit));
+        // Phases of the test are trained on in no period.
+        for fold in &folds {
+            let row = fold.test[fold.test.len() / 2];
+            assert!(!fold.train.contains(&((row + 400) % 800)), "{row}");
+        }
+        assert_eq!(finer(&segments, &periods, &excess(7.0, 7.05)), None);
     }
 
     #[test]

@@ -297,8 +297,21 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// This one, but that no name accounts for what is there.
-    pub(super) fn unexplained(self) -> Self {
+    /// This one, but that no name accounts for what is there: its findings are leads.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::{Outcome, Trace};
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let named = Trace::new(vec![&candidate]).run(&arm, &[measure(0.7)], &mut |_| ())?;
+    /// let doubted = named.clone().unexplained();
+    /// assert_eq!((doubted.outcome, &doubted.leads), (Outcome::Unexplained, &named.findings));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub fn unexplained(self) -> Self {
         let leads = self.findings.into_iter().chain(self.leads);
         Self {
             outcome: Outcome::Unexplained,

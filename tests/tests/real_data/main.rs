@@ -170,6 +170,55 @@ fn tiago_has_late_velocities() {
     assert!(mended.log.holes.is_empty());
 }
 
+/// Its arm is far from what the spec says, and no law of the library is what is missing: columns that would cancel a torque altogether are
+/// none.
+#[test]
+fn tiago_is_unexplained_with_its_late_velocities_told() {
+    let Some(folder) = shared::find("data/tiago", "a trace of TIAGo") else {
+        return;
+    };
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| place.path().join(name).into_os_string();
+    let run = |arguments: &[OsString]| {
+        let all = std::iter::once(OsString::from("robot-model")).chain(arguments.iter().cloned());
+        let code = robot_model_cli::run(all);
+        assert_eq!(format!("{code:?}"), format!("{:?}", ExitCode::SUCCESS));
+    };
+    run(&[
+        "import".into(),
+        folder.join("tiago_48_schunk.urdf").into_os_string(),
+        "--tip".into(),
+        "arm_7_link".into(),
+        "--effects".into(),
+        "all:viscous_friction,coulomb_friction".into(),
+        "-o".into(),
+        path("tiago.robot"),
+    ]);
+    run(&[
+        "trace".into(),
+        path("tiago.robot"),
+        folder.join("identification.csv").into_os_string(),
+        "--json".into(),
+        path("trace.json"),
+    ]);
+    let text = std::fs::read_to_string(place.path().join("trace.json")).expect("the report");
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["outcome"], "unexplained", "{report:#}");
+    assert_eq!(report["effects"], serde_json::json!([]));
+    let faults = report["data_faults"].as_array().expect("a list");
+    let late = faults
+        .iter()
+        .filter(|fault| fault["kind"] == "velocity-late");
+    let late: Vec<f64> = late
+        .filter_map(|fault| fault["delay"]["value"].as_f64())
+        .collect();
+    assert_eq!(late.len(), 8, "{faults:?}");
+    assert!(
+        late.iter().all(|delay| (0.14..0.19).contains(delay)),
+        "{late:?}"
+    );
+}
+
 #[test]
 fn other_machines_have_sound_logs() {
     for (name, dof, logs) in [

@@ -1,0 +1,98 @@
+//! What was found, with the values that the arm has with it.
+
+use robot_model::trace::Finding;
+
+use super::{Loop, Stage};
+
+/// Deviations that a parameter is told by.
+const TOLD: f64 = 2.0;
+
+impl Stage {
+    /// Name of one of the model's last effects, which are the findings; none of a lead, which is not declared.
+    fn effect_name(&self, findings: usize, place: usize) -> Option<String> {
+        let model = &self.arm.compiled().model;
+        let first = model.effects.len().checked_sub(findings)?;
+        (place < findings).then(|| model.effect_name(first + place))
+    }
+
+    /// Names, values and deviations of a finding's parameters: as the model was identified with them, else as they were traced. Shapes of a
+    /// spec are fixed, so that deviations with it know nothing of theirs.
+    fn parameters<'a>(
+        &self,
+        finding: &'a Finding,
+        effect: Option<&str>,
+    ) -> Vec<(&'a str, f64, Option<f64>)> {
+        let all = finding.parameters.iter().map(|traced| {
+            let afresh = effect.and_then(|effect| {
+                let full = format!("{effect}.{}", traced.name);
+                let mut all = self.estimate.parameters.iter();
+                all.find(|one| one.name == full)
+            });
+            let std = traced
+                .std
+                .map(|std| afresh.map_or(std, |afresh| std.max(afresh.std)));
+            let value = afresh.map_or(traced.value, |afresh| afresh.value);
+            (traced.name.as_str(), value, std)
+        });
+        all.collect()
+    }
+
+    /// The first finding of which nothing is left in a model that was identified with all of them: none of its parameters stands out of its
+    /// deviation.
+    pub(super) fn vanished(&self, findings: &[Finding]) -> Option<usize> {
+        let is_told = |(_, value, std): (&str, f64, Option<f64>)| {
+            std.is_none_or(|std| value.abs() > TOLD * std)
+        };
+        (0..findings.len()).find(|&place| {
+            let effect = self.effect_name(findings.len(), place);
+            let parameters = self.parameters(&findings[place], effect.as_deref());
+            !parameters.is_empty() && !parameters.into_iter().any(is_told)
+        })
+    }
+}
+
+impl Loop {
+    /// Name of a finding in the amended model; none of a lead.
+    pub(crate) fn effect_name(&self, place: usize) -> Option<String> {
+        self.after().effect_name(self.verdict.findings.len(), place)
+    }
+
+    /// Names, values and deviations of a finding's parameters, or of a lead's as it was traced.
+    pub(crate) fn parameters<'a>(
+        &self,
+        finding: &'a Finding,
+        place: usize,
+    ) -> Vec<(&'a str, f64, Option<f64>)> {
+        let effect = self.effect_name(place);
+        self.after().parameters(finding, effect.as_deref())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_model::trace::Outcome;
+
+    use crate::close_the_loop::close;
+    use crate::progress::Progress;
+    use crate::trace::cart::{CART, log};
+
+    /// What stands out of its deviation in the model that was identified with it is found, and nothing else is.
+    #[test]
+    fn a_finding_of_which_nothing_is_left_has_vanished() {
+        let closed = close("cart.robot", CART, &[log()], None, &Progress::new())
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(
+            (closed.outcome(), closed.vanished),
+            (Outcome::Explained, None)
+        );
+        let findings = &closed.verdict.findings;
+        let mut stage = closed.changed.expect("an amended model");
+        assert_eq!(stage.vanished(findings), None);
+        let mut all = stage.estimate.parameters.iter_mut();
+        let friction = all.find(|one| one.name == "rail.coulomb_friction.fc");
+        let friction = friction.expect("dry friction");
+        let std = findings[0].parameters[0].std.expect("a deviation");
+        friction.value = 1.5 * std.max(friction.std);
+        assert_eq!(stage.vanished(findings), Some(0));
+    }
+}
