@@ -99,21 +99,37 @@ fn unit(closed: &Loop, finding: &Finding, name: &str) -> String {
         .map_or_else(String::new, |(_, doc)| unit_and_meaning(doc, joint).0)
 }
 
-/// By how much the error falls on the log that was not fitted, of the joint where that is most of its torque; none where it does not.
+/// Joints whose fall is told.
+const MOST_FALLS: usize = 3;
+
+/// By how much the error falls on the log that was not fitted, of the joints where that is most of their torque; none where it does not.
 pub(super) fn fall(closed: &Loop) -> Option<String> {
     let after = closed.changed.as_ref()?.validation.as_ref()?;
     let before = closed.before.validation.as_ref()?;
     let (before, after) = (&before.relative_percent, &after.relative_percent);
     let fall = |joint: usize| before[joint] - after[joint];
-    let joint = (0..before.len()).max_by(|a, b| fall(*a).total_cmp(&fall(*b)))?;
-    (fall(joint) > 0.01 * before[joint]).then(|| {
+    let mut joints: Vec<usize> = (0..before.len()).collect();
+    joints.sort_by(|a, b| fall(*b).total_cmp(&fall(*a)));
+    let first = *joints.first()?;
+    if fall(first) <= 0.01 * before[first] {
+        return None;
+    }
+    // Beside the largest those that are as large as the verdict takes for an effect.
+    let counts = |joint: &usize| *joint == first || fall(*joint) > 0.05 * before[*joint];
+    let falls = joints.into_iter().filter(counts).take(MOST_FALLS);
+    let falls = falls.map(|joint| {
+        let name = &closed.before.arm.joints()[joint];
+        let falls = if joint == first { " falls" } else { "" };
         format!(
-            "on the log that was not fitted the error of {} falls from {:.2} to {:.2} % of its torque",
-            closed.before.arm.joints()[joint],
-            before[joint],
-            after[joint]
+            "{name}{falls} from {:.2} to {:.2} %",
+            before[joint], after[joint]
         )
-    })
+    });
+    let falls: Vec<String> = falls.collect();
+    Some(format!(
+        "on the log that was not fitted the error of {} of its torque",
+        falls.join(", that of ")
+    ))
 }
 
 /// With a capital and a full stop.

@@ -14,9 +14,10 @@ use crate::columns::Candidate;
 pub struct Evidence {
     /// `F` statistic of the effect against the residual: every model column projected out, blocks of time as samples.
     pub score: f64,
-    /// Probability of that score or more in noise, times the number of candidates and shapes tried.
+    /// Probability of that score or more in noise, times the independent tests that all candidates and shapes are worth.
     pub p_value: f64,
-    /// Fall of the held-out error (shared band, cross-validation inside the identification logs), percent per joint.
+    /// Fall of the held-out error (shared band, cross-validation inside the identification logs), percent per joint. Coefficients are those of
+    /// the other folds; shapes, which are few, are those of all.
     pub held_out_percent: Vec<f64>,
     /// The same for the error on raw samples, percent per joint.
     pub raw_percent: Vec<f64>,
