@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, ImportError, ImportOptions, Inertials, import};
 
 use crate::Error;
+use crate::misplaced::instead_of_a_urdf;
 use crate::output::{self, Files};
 use crate::spec::read_text;
 
@@ -71,6 +72,12 @@ fn parse_vector(text: &str) -> Result<[f64; 3], String> {
 impl Import {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let urdf = read_text(&self.urdf)?;
+        if let Some(reason) = instead_of_a_urdf(&self.urdf, &urdf) {
+            return Err(Error::Read {
+                path: self.urdf.clone(),
+                reason,
+            });
+        }
         let options = ImportOptions {
             base: self.base.clone(),
             tip: self.tip.clone(),

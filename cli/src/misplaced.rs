@@ -24,11 +24,26 @@ pub(crate) fn instead_of_a_spec(path: &Path, bytes: &[u8]) -> Option<String> {
             "it looks like a URDF, and a spec has to stand here; write one from it: `robot-model import {name} -o arm.robot`"
         ));
     }
+    if start.starts_with(['{', '[']) {
+        return Some(format!(
+            "it looks like JSON, and a spec has to stand here; name the spec first, and a file of parameters behind `--parameters`, as in `robot-model audit arm.robot --parameters {name}`"
+        ));
+    }
     let is_called_log = ENDS.iter().any(|end| lower.ends_with(end));
     let is_log = is_log(bytes) || (!is_empty && is_called_log);
     is_log.then(|| {
         format!(
             "it looks like a log, and a spec has to stand here; name the spec first and logs behind it, as in `robot-model identify arm.robot {name}`"
+        )
+    })
+}
+
+/// The same for what stands where a URDF should.
+pub(crate) fn instead_of_a_urdf(path: &Path, text: &str) -> Option<String> {
+    let name = path.display();
+    is_spec(text).then(|| {
+        format!(
+            "it looks like a spec, and a URDF has to stand here; a spec is read as it is: `robot-model check {name}`"
         )
     })
 }
@@ -165,6 +180,18 @@ mod tests {
                 "{said}"
             );
         }
+        for (name, text) in [("fit.json", " {\"a.m\": 3}"), ("fit", "[1, 2, 3]")] {
+            let said = told(name, text.as_bytes()).expect("JSON");
+            let command = format!("audit arm.robot --parameters {name}`");
+            assert!(
+                said.starts_with("it looks like JSON") && said.contains(&command),
+                "{said}"
+            );
+        }
+        let told_of_urdf = |text: &str| instead_of_a_urdf(Path::new("arm.robot"), text);
+        assert_eq!(told_of_urdf("<robot name=\"a\"/>"), None);
+        let said = told_of_urdf("// mine\nrobot A { }").expect("a spec");
+        assert!(said.contains("`robot-model check arm.robot`"), "{said}");
         for text in [
             "robot A { gravity = [0, 0, -9.81]; }",
             "// a, b, c\nrobot A {}",

@@ -144,10 +144,36 @@ pub(crate) fn compile_to_look_at(path: &Path) -> Result<Compiled, Error> {
             ));
         }
     }
+    for remark in far_shapes(&compiled.model) {
+        output::say(&format!("warning: {}:{remark}", compiled.model.source));
+    }
     for remark in compiled.base.remarks(&compiled.standard) {
         output::say(&format!("warning: {}: {remark}", compiled.model.source));
     }
     Ok(compiled)
+}
+
+/// Values of shapes outside of the range in which the definition looks for them, each with its line: laws hold there, and few mechanisms do.
+fn far_shapes(model: &Model) -> Vec<String> {
+    let mut far = Vec::new();
+    for effect in &model.effects {
+        let definition = &effect.definition;
+        for (shape, value) in definition.shapes.iter().zip(&effect.shapes) {
+            let Some(value) = value.filter(|value| !(shape.low..=shape.high).contains(value))
+            else {
+                continue;
+            };
+            let said = format!(
+                "{}: `{}` of effect `{}` is {value}, in SI units, and is looked for in {} .. {}; see whether its unit is right",
+                effect.line, shape.name, definition.name, shape.low, shape.high
+            );
+            // A declaration on several joints is one line.
+            if !far.contains(&said) {
+                far.push(said);
+            }
+        }
+    }
+    far
 }
 
 /// The gate before everything that computes with base parameters.

@@ -197,7 +197,7 @@ fn run(arguments: &[&str]) {
     );
 }
 
-/// A benchmark arm from its URDF over a fit on its log back into its URDF: the URDF has the torques of the fit, its links are bodies, and
+/// A benchmark arm from its URDF over a fit on its log back into its URDF, rotors in links: the URDF has the torques of the fit, its links are bodies, and
 /// what is no inertial or loss is where it was.
 #[test]
 fn an_identified_arm_goes_back_into_its_urdf() {
@@ -224,7 +224,8 @@ fn an_identified_arm_goes_back_into_its_urdf() {
         "-o",
         &out,
     ];
-    run(&[&export[..], &["--urdf", &original]].concat());
+    let more = ["--urdf", &original, "--rotors", "in-links"];
+    run(&[&export[..], &more].concat());
 
     let text = |path: &str| fs::read_to_string(path).expect("a readable file");
     let model = load(&case.spec);

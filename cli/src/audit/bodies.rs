@@ -4,7 +4,7 @@ use robot_model::Inertial;
 use robot_model_codegen::Compiled;
 
 use super::{Check, Finding, Quantity};
-use crate::interpreted::{payloads, possible_arms, share_deviations};
+use crate::interpreted::{Moved, Widths, payloads, possible_arms};
 use crate::output::{counted, rounded};
 use crate::parameters::Values;
 
@@ -17,19 +17,29 @@ const ROUNDING: f64 = 1e-9;
 /// How many of them are shown.
 const SHOWN: usize = 8;
 
-/// Deviations, at most, by which base parameters of an arm that can be miss the values.
-const MISSED: f64 = 3.0;
+/// Deviations, at most, by which base parameters of an arm that can be miss the values: those that a file has, and those that stand for
+/// them where nobody says any.
+const MISSED: f64 = 2.0;
+const MISSED_SHARES: f64 = 3.0;
+
+/// Deviations below which a value is missed by the search alone.
+const OF_SEARCH: f64 = 0.1;
 
 /// By how much wider deviations are searched with where a search with narrower ones comes to no end.
 const WIDER: [f64; 3] = [1.0, 10.0, 100.0];
 
-/// `None` for a robot that says its energies.
-pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
+/// `None` for a robot that says its energies. Deviations are those of base parameters, as far as they are known.
+pub(super) fn check(
+    compiled: &Compiled,
+    values: &Values,
+    deviations: &[Option<f64>],
+) -> Option<Check> {
     let chain = compiled.model.chain()?;
     let count = counted(chain.links.len(), "link");
     let Some(standard) = &values.standard else {
         let scope = format!("{count}, by base parameters: whether some bodies have them");
-        return Some(of_base(compiled, &values.beta, scope));
+        let widths = Widths::new(compiled, &values.beta, deviations);
+        return Some(of_base(compiled, &values.beta, &widths, scope));
     };
     let links = chain.links.iter().zip(standard.chunks(10));
     let links = links.map(|(link, ten)| ("link ", link.name.clone(), ten.to_vec()));
@@ -92,7 +102,7 @@ fn impossible(inertial: &Inertial) -> Option<(String, &'static str, f64, &'stati
 }
 
 /// Base parameters that would have to be others, were every link a body.
-fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
+fn of_base(compiled: &Compiled, beta: &[f64], widths: &Widths, scope: String) -> Check {
     let Some(mut arms) = possible_arms(compiled) else {
         return Check::new("bodies", scope, Vec::new());
     };
@@ -107,53 +117,61 @@ fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
         .map(|column| base.kept[column])
         .collect();
     arms.nonnegative.retain(|k| !alone.contains(k));
-    let deviations = share_deviations(compiled, beta);
-    let findings = WIDER.into_iter().find_map(|wider| {
-        let wide: Vec<f64> = deviations.iter().map(|one| wider * one).collect();
+    let missed = WIDER.into_iter().find_map(|wider| {
+        let wide: Vec<f64> = widths.values.iter().map(|one| wider * one).collect();
         let (nearest, _) = arms.nearest_to(beta, &wide)?;
-        let missed = |least: f64| missed(compiled, [beta, &nearest, &deviations], least, &is_rigid);
+        let mut moved = Moved::all(compiled, beta, &nearest, widths);
+        moved.retain(|moved| is_rigid(moved.column));
+        let is_missed = |times: f64| moved.iter().any(|moved| moved.widths > times * most(moved));
         // What is missed by less than the wider search may miss is told by no one.
-        let findings = missed(wider * MISSED);
-        (!findings.is_empty() || missed(MISSED).is_empty()).then_some(findings)
+        (is_missed(wider) || !is_missed(1.0)).then_some((wider, moved))
     });
-    judged(scope, findings)
+    judged(scope, missed)
 }
 
-/// A search that has come to no end says nothing of the values.
-fn judged(scope: String, findings: Option<Vec<Finding>>) -> Check {
-    match findings {
-        Some(findings) => Check::new("bodies", scope, findings),
-        None => Check::undecided(
+/// Deviations, at most, by which an arm that can be misses a value.
+fn most(moved: &Moved) -> f64 {
+    if moved.has_deviation {
+        MISSED
+    } else {
+        MISSED_SHARES
+    }
+}
+
+/// What the nearest arm misses, those that are farthest off first. A search that has come to no end says nothing of the values.
+fn judged(scope: String, found: Option<(f64, Vec<Moved>)>) -> Check {
+    let Some((wider, mut missed)) = found else {
+        return Check::undecided(
             "bodies",
             scope,
             "the search for an arm whose links have bodies came to no end near these parameters; `identify --method physical` on the logs \
              decides, or values of standard parameters do",
-        ),
+        );
+    };
+    let is_failed = |moved: &Moved| moved.widths > wider * most(moved);
+    if missed.iter().any(is_failed) {
+        missed.retain(is_failed);
+        let mut findings = listed(&missed, "of arms whose links have bodies the nearest has ");
+        let way_out = "`identify --method physical` asks the logs for the nearest arm that can be";
+        findings.push((way_out.to_owned(), Vec::new()));
+        return Check::new("bodies", scope, findings);
     }
+    missed.retain(|moved| moved.has_deviation && moved.widths > OF_SEARCH);
+    let note = "within what is known, of arms whose links have bodies the nearest has ";
+    Check::noted("bodies", scope, listed(&missed, note))
 }
 
-/// Base parameters that the nearest arm misses by more than `least` deviations.
-fn missed(
-    compiled: &Compiled,
-    [beta, nearest, deviations]: [&[f64]; 3],
-    least: f64,
-    is_rigid: &dyn Fn(usize) -> bool,
-) -> Vec<Finding> {
-    let pairs = beta.iter().zip(nearest).zip(deviations);
-    let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
-    let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
-    missed.retain(|&(missed, column)| missed > least && is_rigid(column));
-    missed.sort_by(|x, y| y.0.total_cmp(&x.0));
+/// Sentences about values that the nearest arm misses.
+fn listed(missed: &[Moved], said: &str) -> Vec<Finding> {
     let mut findings: Vec<Finding> = missed
         .iter()
         .take(SHOWN)
-        .map(|&(_, k)| {
-            let name = &compiled.base.names[k];
-            let said = format!(
-                "`{name}` is {:.4}; of arms whose links have bodies the nearest has {:.4}",
-                beta[k], nearest[k]
-            );
-            (said, vec![Quantity::of("nearest", name, nearest[k], "")])
+        .map(|moved| {
+            let mut quantities = vec![Quantity::of("nearest", &moved.name, moved.nearest, "")];
+            if moved.has_deviation {
+                quantities.push(Quantity::of("deviations", &moved.name, moved.widths, ""));
+            }
+            (format!("{said}{}", moved.said()), quantities)
         })
         .collect();
     if missed.len() > SHOWN {
@@ -166,14 +184,39 @@ fn missed(
 mod tests {
     use super::*;
 
+    fn moved(widths: f64, has_deviation: bool) -> Moved {
+        Moved {
+            column: 0,
+            name: "a.mx".to_owned(),
+            given: 0.0111,
+            nearest: 0.011_100_1,
+            widths,
+            has_deviation,
+        }
+    }
+
     #[test]
-    fn a_search_without_an_end_decides_nothing() {
-        let passed = |findings| judged(String::new(), findings).passed;
-        assert_eq!(passed(None), None);
-        assert_eq!(passed(Some(Vec::new())), Some(true));
-        assert_eq!(
-            passed(Some(vec![("`a.mx`".to_owned(), Vec::new())])),
-            Some(false)
-        );
+    fn what_is_within_deviations_is_noted_and_no_failure() {
+        let judged =
+            |missed: Option<Vec<Moved>>| judged(String::new(), missed.map(|all| (1.0, all)));
+        // A search without an end decides nothing.
+        assert_eq!(judged(None).passed, None);
+        assert_eq!(judged(Some(Vec::new())).passed, Some(true));
+        let noted = judged(Some(vec![
+            moved(1.9, true),
+            moved(0.01, true),
+            moved(2.9, false),
+        ]));
+        assert_eq!(noted.passed, Some(true));
+        let said = "within what is known, of arms whose links have bodies the nearest has `a.mx` 0.0111001 in place of 0.0111000 \
+                    (1.9 standard deviations)";
+        assert_eq!(noted.findings, [said]);
+        assert_eq!(noted.quantity("deviations", Some("a.mx")), Some(1.9));
+        for missed in [moved(2.1, true), moved(3.1, false)] {
+            let failed = judged(Some(vec![missed, moved(1.0, true)]));
+            assert_eq!(failed.passed, Some(false));
+            assert_eq!(failed.findings.len(), 2, "{:?}", failed.findings);
+            assert!(failed.findings[1].starts_with("`identify --method physical`"));
+        }
     }
 }

@@ -69,7 +69,7 @@ pub struct Check {
     pub passed: Option<bool>,
     /// What was looked at.
     pub scope: String,
-    /// What is wrong; of `rank` what cannot be known.
+    /// What is wrong; of `rank` what cannot be known, of `bodies` that passed what deviations of the file leave open.
     pub findings: Vec<String>,
     /// The numbers that these sentences say, unrounded.
     pub quantities: Vec<Quantity>,
@@ -78,7 +78,7 @@ pub struct Check {
 /// A number of a [`Check`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Quantity {
-    /// `mass`, `least_second_moment`, `nearest` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
+    /// `mass`, `least_second_moment`, `nearest`, `deviations` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
     /// (friction); `jump`, `at` (jumps); `work` (memory); `friction`, `at_rest`, `largest_torque` (drives); `base_parameters`, `parameters`
     /// (rank); `value`, `other`, `apart`, `std` (against); `factor`, `needed`, `independent`, `base_parameters` (base).
     pub what: &'static str,
@@ -118,7 +118,7 @@ type Finding = (String, Vec<Quantity>);
 /// [`Error`] where a name is not the arm's, or a parameter has no value.
 pub fn audit(compiled: &Compiled, parameters: &BTreeMap<String, f64>) -> Result<Vec<Check>, Error> {
     let values = parameters::by_name(compiled, parameters)?;
-    Ok(checks(compiled, &values))
+    Ok(checks(compiled, &values, &[]))
 }
 
 /// Whether two sources, each with parameters by name as [`audit`] takes them, say the same of what torques tell: the check `against`.
@@ -153,9 +153,9 @@ pub(crate) fn inertia_of(compiled: &Compiled, beta: &[f64], shapes: &[f64]) -> O
     check.findings.into_iter().next()
 }
 
-fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
+fn checks(compiled: &Compiled, values: &Values, deviations: &[Option<f64>]) -> Vec<Check> {
     let all = [
-        bodies::check(compiled, values),
+        bodies::check(compiled, values, deviations),
         Some(signs(compiled, values)),
         Some(inertia::check(compiled, &values.parameters, &values.shapes)),
         Some(friction::check(compiled, values)),
@@ -177,6 +177,14 @@ impl Check {
             scope,
             findings,
             quantities: quantities.into_iter().flatten().collect(),
+        }
+    }
+
+    /// Passed, with what is remarkable all the same.
+    fn noted(name: &'static str, scope: String, findings: Vec<Finding>) -> Self {
+        Self {
+            passed: Some(true),
+            ..Self::new(name, scope, findings)
         }
     }
 
@@ -228,7 +236,10 @@ impl Audit {
         let (mut checks, mut source) = (Vec::new(), None);
         if self.base.is_none() || self.parameters.is_some() || self.against.is_some() {
             let (values, of) = values_of(&compiled, self.parameters.as_deref())?;
-            checks = self::checks(&compiled, &values);
+            let deviations = self.parameters.as_deref();
+            let deviations = deviations.map(|file| parameters::deviations(&compiled, file));
+            let deviations = deviations.transpose()?.unwrap_or_default();
+            checks = self::checks(&compiled, &values, &deviations);
             source = Some(of);
             if let Some(other) = &self.against {
                 checks.push(self.beside(&compiled, values, other)?);

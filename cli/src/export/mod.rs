@@ -43,9 +43,21 @@ pub(crate) struct Export {
     /// Without it a URDF is made from the spec's frames.
     #[arg(long, value_name = "ORIGINAL.urdf")]
     urdf: Option<PathBuf>,
+    /// Where rotors go that a URDF has no place for. Bodies are those of an MJCF model of the same parameters where they stand apart.
+    #[arg(long, value_enum, default_value_t = Rotors::Apart)]
+    rotors: Rotors,
     /// The file to write.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+}
+
+/// Inertia of rotors in a URDF.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Rotors {
+    /// Not written; a note has each, to be given to a simulator as armature.
+    Apart,
+    /// In the inertia of their links where that moves alike; links then are far from CAD.
+    InLinks,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -71,6 +83,11 @@ impl Export {
             let reason = "`--urdf` is of `--as urdf`; an MJCF model is made from the spec's frames";
             return Err(Error::Argument(reason.to_owned()));
         }
+        if self.rotors == Rotors::InLinks && self.format != Format::Urdf {
+            let reason =
+                "`--rotors in-links` is of `--as urdf`; an MJCF model has a place for rotors";
+            return Err(Error::Argument(reason.to_owned()));
+        }
         let inputs = [
             Some(&self.spec),
             self.parameters.as_ref(),
@@ -86,7 +103,7 @@ impl Export {
         }
         let file = self.parameters.as_deref();
         let (values, _, origin) = parameters::values(&compiled, file)?;
-        let standard = standard(&compiled, &values, file, self.format)?;
+        let standard = standard(&compiled, &values, file, self.has_rotors_apart())?;
         let (numbers, told) = self.numbers(&compiled, &standard, &values.shapes);
         let (text, remarks) = self.text(&compiled, &numbers)?;
         if let Some(moved) = said::moved(&standard) {
@@ -100,6 +117,11 @@ impl Export {
             say(&format!("note: {note}"));
         }
         out.commit(marked(&text).as_bytes())
+    }
+
+    /// Whether rotors are no part of links: an MJCF model says them, and a URDF leaves them out.
+    fn has_rotors_apart(&self) -> bool {
+        self.rotors == Rotors::Apart
     }
 
     /// What is written, and what is told of it.
@@ -129,6 +151,7 @@ impl Export {
         let remarks: Vec<String> = links.iter().map(|link| link.remark.clone()).collect();
         told.extend(said::not_alone(compiled, &remarks));
         told.extend(said::masses(standard));
+        told.extend(said::inertias(compiled, &standard.values));
         for (joint, ten) in bodies(model, shapes, &value) {
             for (sum, more) in links[joint].inertial.iter_mut().zip(ten) {
                 *sum += more;
@@ -148,6 +171,9 @@ impl Export {
                 self.format.name(),
                 left_out.join(", ")
             ));
+        }
+        if self.format == Format::Urdf {
+            notes.extend(said::rotors(model, &value));
         }
         told.extend(notes.iter().cloned());
         let numbers = Numbers {

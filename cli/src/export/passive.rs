@@ -222,8 +222,20 @@ fn number(
     })
 }
 
-/// Standard parameters of effects for which a format has no place.
-pub(super) fn is_unsaid(model: &Model, format: Format, owner: Owner) -> bool {
+/// Whether an effect is nothing but the inertia of a rotor.
+pub(super) fn is_rotor(effect: &Effect) -> bool {
+    law(&effect.definition).is_some_and(|terms| {
+        !terms.is_empty() && terms.iter().all(|(.., part)| *part == Part::Armature)
+    })
+}
+
+/// Standard parameters of effects for which there is no place beside the links. What stands apart from links is what MJCF says.
+pub(super) fn is_unsaid(model: &Model, has_rotors_apart: bool, owner: Owner) -> bool {
+    let format = if has_rotors_apart {
+        Format::Mjcf
+    } else {
+        Format::Urdf
+    };
     match owner {
         Owner::Effect { effect, .. } => {
             let effect = &model.effects[effect];

@@ -1,12 +1,13 @@
 //! What is said of an arm that is written: which of its values the parameters tell, and what the format has no place for.
 
 use robot_model_codegen::Compiled;
-use robot_model_spec::model::{Inertial, LinearParameter, Link};
+use robot_model_spec::model::{Inertial, JointKind, LinearParameter, Link, Model};
 use robot_model_spec::parameter::{InertialElement, Owner};
 
 use super::Format;
-use super::passive::{is_body, is_said};
-use super::standard::{Moved, Standard};
+use super::passive::{is_body, is_rotor, is_said, joints};
+use super::standard::Standard;
+use crate::interpreted::Moved;
 use crate::output::{names, significant};
 
 /// Of a link, by names of its ten: what is told alone, what only in sums, what is of no influence.
@@ -89,17 +90,8 @@ const NAMED: usize = 4;
 
 /// A sentence about base parameters that no arm has, those that are farthest off first.
 pub(super) fn moved(standard: &Standard) -> Option<String> {
-    let mut moved: Vec<&Moved> = standard.moved.iter().collect();
-    moved.sort_by(|x, y| y.widths.total_cmp(&x.widths));
-    let named = moved.iter().take(NAMED).map(|moved| {
-        let by = if moved.has_deviation {
-            format!(" ({} standard deviations)", significant(moved.widths, 2))
-        } else {
-            String::new()
-        };
-        let [given, written] = [moved.given, moved.written].map(|x| significant(x, 5));
-        format!("`{}` {written} in place of {given}{by}", moved.name)
-    });
+    let moved = &standard.moved;
+    let named = moved.iter().take(NAMED).map(Moved::said);
     let named: Vec<String> = named.collect();
     let more = match moved.len().saturating_sub(NAMED) {
         0 => String::new(),
@@ -128,7 +120,8 @@ pub(super) fn not_written(
         let definition = &effect.definition;
         let own = &shapes[first_shape..first_shape + definition.shapes.len()];
         first_shape += definition.shapes.len();
-        if is_said(effect, format) || is_body(effect) {
+        // Rotors are told by joints.
+        if is_said(effect, format) || is_body(effect) || is_rotor(effect) {
             continue;
         }
         let linear = compiled.standard.iter().zip(standard);
@@ -208,4 +201,80 @@ pub(super) fn masses(standard: &Standard) -> Option<String> {
             others.join(", ")
         )
     })
+}
+
+/// A sentence about rotors that stand apart from the links, where a format has no place for them.
+pub(super) fn rotors(model: &Model, value: &dyn Fn(usize, usize) -> f64) -> Option<String> {
+    let all = joints(model, Format::Mjcf, value);
+    let rotors = model.joints.iter().zip(all).filter_map(|(joint, numbers)| {
+        let inertia = numbers.armature.filter(|inertia| *inertia != 0.0)?;
+        let unit = match joint.kind {
+            JointKind::Revolute => "kg m^2",
+            JointKind::Prismatic => "kg",
+        };
+        Some(format!(
+            "`{}` {} {unit}",
+            joint.name,
+            significant(inertia, 4)
+        ))
+    });
+    let rotors: Vec<String> = rotors.collect();
+    (!rotors.is_empty()).then(|| {
+        format!(
+            "the inertia of rotors, for which a URDF has no place, is in no link; give it to your simulator as armature of the joints: {}",
+            rotors.join(", ")
+        )
+    })
+}
+
+/// By how many times a moment of inertia leaves the nominal one before it is told.
+const FAR: f64 = 10.0;
+
+/// Moments of inertia below this share of the largest of a link are nothing, as that of a rod about itself is.
+const NOTHING: f64 = 1e-2;
+
+/// A sentence about links whose principal moments of inertia are far from the nominal ones.
+pub(super) fn inertias(compiled: &Compiled, standard: &[f64]) -> Option<String> {
+    let links = compiled.model.chain()?.links.iter();
+    let tens = standard.chunks_exact(InertialElement::ALL.len());
+    let far = links.zip(tens).filter_map(|(link, ten)| {
+        let Inertial::Nominal(nominal) = link.inertial else {
+            return None;
+        };
+        let given = principal_moments(nominal)?;
+        let written = principal_moments(ten.try_into().ok()?)?;
+        let least = NOTHING * given[2].max(written[2]);
+        let mut pairs = given.iter().zip(&written);
+        let is_far = pairs.any(|(given, written)| {
+            let (small, large) = (given.min(*written), given.max(*written));
+            large > FAR * small.max(least)
+        });
+        let [given, written] = [given, written].map(|moments| {
+            let moments = moments.map(|moment| significant(moment, 3));
+            moments.join(", ")
+        });
+        is_far.then(|| {
+            format!(
+                "`{}` {written} kg m^2 in place of {given} kg m^2",
+                link.name
+            )
+        })
+    });
+    let far: Vec<String> = far.collect();
+    (!far.is_empty()).then(|| {
+        format!(
+            "some moments of inertia about the center of mass are more than {FAR} times larger or smaller than the nominal ones; check those, \
+             and whether effects such as `motor_inertia` are declared: {}",
+            far.join(", ")
+        )
+    })
+}
+
+/// Moments of inertia about the principal axes through the center of mass, the least first.
+fn principal_moments(ten: [f64; 10]) -> Option<[f64; 3]> {
+    let spread = robot_model::Inertial::from(ten).second_moments()?;
+    let spread = spread.symmetric_eigenvalues();
+    let mut moments = [0, 1, 2].map(|axis| (spread.sum() - spread[axis]).max(0.0));
+    moments.sort_by(f64::total_cmp);
+    Some(moments)
 }

@@ -7,17 +7,13 @@ use robot_model::Inertial;
 use robot_model::identify::{PossibleArms, PossibleLink};
 use robot_model_codegen::Compiled;
 
-use super::Format;
 use super::passive::is_unsaid;
 use crate::Error;
-use crate::interpreted::{possible_arms, share_deviations};
+use crate::interpreted::{Moved, Widths, possible_arms};
 use crate::parameters::{self, Beside, Values};
 
 /// How exactly base parameters are kept in the search, in deviations; wider ones where a search comes to no end.
 const WIDTHS: [f64; 6] = [1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2];
-
-/// Base parameters are the same where they differ by less: as a share, and in deviations.
-const SAME: f64 = 1e-6;
 
 /// Masses are the same where they differ by less, as a share.
 const SAME_MASS: f64 = 1e-3;
@@ -37,24 +33,14 @@ pub(super) struct Standard {
 /// A link, the mass that is given, and the one that is written.
 type OtherMass = (String, [f64; 2]);
 
-/// A base parameter of which another value is written.
-pub(super) struct Moved {
-    pub name: String,
-    pub given: f64,
-    pub written: f64,
-    /// The difference in deviations, or in what stands for one where the file has none.
-    pub widths: f64,
-    pub has_deviation: bool,
-}
-
 /// Finds it.
 pub(super) fn standard(
     compiled: &Compiled,
     values: &Values,
     file: Option<&Path>,
-    format: Format,
+    has_rotors_apart: bool,
 ) -> Result<Standard, Error> {
-    let given = given(compiled, values, file, format)?;
+    let given = given(compiled, values, file, has_rotors_apart)?;
     if let Some(values) = given.filter(|values| are_possible(compiled, values)) {
         return Ok(Standard {
             values,
@@ -64,47 +50,31 @@ pub(super) fn standard(
         });
     }
     let deviations = file.map(|file| parameters::deviations(compiled, file));
-    let deviations = deviations.transpose()?;
-    let known = |k: usize| deviations.as_ref().and_then(|all| all[k]);
-    let shares = share_deviations(compiled, &values.beta);
-    let widths: Vec<f64> = (0..shares.len())
-        .map(|k| known(k).unwrap_or(shares[k]))
-        .collect();
-    let (found, masses) = search(compiled, values, &widths, format).ok_or_else(|| {
+    let deviations = deviations.transpose()?.unwrap_or_default();
+    let widths = Widths::new(compiled, &values.beta, &deviations);
+    let found = search(compiled, values, &widths.values, has_rotors_apart);
+    let (found, masses) = found.ok_or_else(|| {
         Error::Argument(format!(
             "{}: the search for an arm whose links are bodies came to no end near these parameters; `identify --method physical` \
              finds one on the logs",
             compiled.model.source
         ))
     })?;
-    let base = &compiled.base;
-    let pairs = values.beta.iter().copied().zip(base.beta(&found));
-    let differ = pairs.enumerate().filter(|&(k, (given, written))| {
-        let apart = (given - written).abs();
-        apart > SAME * given.abs() && apart > SAME * widths[k]
-    });
-    let moved = differ.map(|(k, (given, written))| Moved {
-        name: base.names[k].clone(),
-        given,
-        written,
-        widths: (given - written).abs() / widths[k],
-        has_deviation: known(k).is_some(),
-    });
     Ok(Standard {
-        moved: moved.collect(),
+        moved: Moved::all(compiled, &values.beta, &compiled.base.beta(&found), &widths),
         values: found,
         is_given: false,
         masses,
     })
 }
 
-/// Standard parameters that the file or the spec gives; none where they give base parameters only, or where something that the
-/// format does not say could be in the links.
+/// Standard parameters that the file or the spec gives; none where they give base parameters only, or where something that has no
+/// place beside the links could be in them.
 fn given(
     compiled: &Compiled,
     values: &Values,
     file: Option<&Path>,
-    format: Format,
+    has_rotors_apart: bool,
 ) -> Result<Option<Vec<f64>>, Error> {
     if let Some(standard) = &values.standard {
         return Ok(standard.iter().copied().collect());
@@ -117,16 +87,16 @@ fn given(
     };
     let standard: Option<Vec<f64>> = standard.into_iter().collect();
     let hides = |standard: &Vec<f64>| {
-        let regrouped = regrouped(compiled, format);
+        let regrouped = regrouped(compiled, has_rotors_apart);
         regrouped.into_iter().any(|k| standard[k] != 0.0)
     };
     Ok(standard.filter(|standard| !hides(standard)))
 }
 
-/// Parameters of effects that the format does not say and that a base parameter has others for: what they do is put there.
-fn regrouped(compiled: &Compiled, format: Format) -> Vec<usize> {
+/// Parameters of effects that have no place beside the links and that a base parameter has others for: what they do is put there.
+fn regrouped(compiled: &Compiled, has_rotors_apart: bool) -> Vec<usize> {
     let unsaid = compiled.standard.iter().enumerate().filter(|(k, own)| {
-        is_unsaid(&compiled.model, format, own.owner) && !compiled.base.kept.contains(k)
+        is_unsaid(&compiled.model, has_rotors_apart, own.owner) && !compiled.base.kept.contains(k)
     });
     unsaid.map(|(k, _)| k).collect()
 }
@@ -136,10 +106,10 @@ fn search(
     compiled: &Compiled,
     values: &Values,
     widths: &[f64],
-    format: Format,
+    has_rotors_apart: bool,
 ) -> Option<(Vec<f64>, Vec<OtherMass>)> {
     let mut arms = possible_arms(compiled)?;
-    for k in regrouped(compiled, format) {
+    for k in regrouped(compiled, has_rotors_apart) {
         arms.fixed[k] = Some(0.0);
     }
     // Values by name are nearer than those of the spec.

@@ -13,6 +13,7 @@ mod function;
 mod links;
 mod measured;
 mod momentum;
+mod moved;
 mod nominal;
 mod orbit;
 mod plant;
@@ -34,8 +35,9 @@ pub(crate) use change::is_delaying;
 pub use constants::Constants;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
+pub(crate) use moved::{Moved, Widths};
 pub use plant::InterpretedPlant;
-pub(crate) use possible::{payloads, possible_arms, share_deviations};
+pub(crate) use possible::{payloads, possible_arms};
 pub(crate) use states::states;
 pub use undeclared::Undeclared;
 

@@ -39,7 +39,18 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
 /// The values of a file by their names.
 fn read(compiled: &Compiled, path: &Path) -> Result<BTreeMap<String, f64>, Error> {
     let values = file::read(&json::read(path)?, &compiled.shape_names());
-    values.map_err(|reason| Error::json(path, &reason))
+    values.map_err(|reason| Error::Json {
+        path: path.to_owned(),
+        line: no_number(&reason).and_then(|name| json::place_of(path, name)),
+        reason,
+    })
+}
+
+/// The parameter whose value is no number, as a reason says it.
+fn no_number(reason: &str) -> Option<&str> {
+    let words = reason.strip_prefix("the `value` of ").unwrap_or(reason);
+    let (name, rest) = words.strip_prefix('`')?.split_once('`')?;
+    rest.starts_with(" is ").then_some(name)
 }
 
 /// The values of a file by their names, none where there is no file; and what errors call the source.
@@ -144,6 +155,21 @@ mod tests {
         joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; }
         effects { viscous_friction on rail; }
     }";
+
+    #[test]
+    fn what_is_no_number_is_named() {
+        assert_eq!(
+            no_number("`a.m` is text, where a number is wanted"),
+            Some("a.m")
+        );
+        assert_eq!(no_number("`a.m` is null; write its value"), Some("a.m"));
+        assert_eq!(
+            no_number("the `value` of `a.m` is text, where .."),
+            Some("a.m")
+        );
+        assert_eq!(no_number("`a.m` has no `value`: write .."), None);
+        assert_eq!(no_number("it is a list: write `{..}`"), None);
+    }
 
     #[test]
     fn unknown_names_are_of_the_file_or_of_who_asks() {

@@ -2,6 +2,30 @@
 
 use crate::common::{CART, Folder, PENDULUM, cart_log};
 
+/// A shape may lie where nobody looks for it, and most often it has another unit then.
+#[test]
+fn a_shape_far_from_its_range_is_told() {
+    let folder = Folder::new();
+    let spec = PENDULUM.replace(
+        "\n}\n",
+        "\n    effects { viscous_friction on all; stribeck(vs = 0.1) on upper;\n stribeck(vs = 10) on all; }\n}\n",
+    );
+    folder.write("arm.robot", &spec);
+    let run = folder.run(&["check", "arm.robot"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let line = spec.lines().count() - 1;
+    let told = format!(
+        "warning: arm.robot:{line}: `vs` of effect `stribeck` is 10, in SI units, and is looked for in 0.005 .. 0.5;"
+    );
+    assert!(run.stderr.starts_with(&told), "{}", run.stderr);
+    assert_eq!(
+        run.stderr.matches("is looked for").count(),
+        1,
+        "{}",
+        run.stderr
+    );
+}
+
 #[test]
 fn check_says_what_the_spec_describes() {
     let folder = Folder::new();

@@ -35,6 +35,18 @@ pub(crate) fn fitted_with(effects: &str, values: &str) -> Folder {
     folder
 }
 
+/// A URDF of the fit with rotors in its links.
+pub(crate) const IN_LINKS: [&str; 8] = [
+    "--as",
+    "urdf",
+    "--parameters",
+    "fit.json",
+    "-o",
+    "out.urdf",
+    "--rotors",
+    "in-links",
+];
+
 pub(crate) fn export(folder: &Folder, more: &[&str]) -> String {
     let run = folder.run(&[&["export", "arm.robot"], more].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
@@ -129,18 +141,21 @@ fn a_urdf_has_the_torques_of_the_fit() {
 #[test]
 fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
     let folder = fitted(EFFECTS);
-    let said = export(
-        &folder,
-        &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
-    );
+    let said = export(&folder, &IN_LINKS);
     // The rotor of the first joint is in the link's moment of inertia about its axis; that of the second is one of its own.
+    let rotor = value(&folder, "lower.motor_inertia.ia");
+    assert!(
+        said.contains(&format!(
+            "armature of the joints: `lower` {rotor:.4} kg m^2\n"
+        )),
+        "{said}"
+    );
     assert!(
         said.contains(
-            "effects that a URDF does not say are not written: `lower.motor_inertia` (ia = 0.1"
+            "effects that a URDF does not say are not written: `lower.stribeck` (fs = 0.1"
         ),
         "{said}"
     );
-    assert!(said.contains("`lower.stribeck` (fs = 0.1"), "{said}");
     assert!(
         folder
             .read("out.urdf")
@@ -154,7 +169,6 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
     let wanted = forms(&folder, "arm.robot", &["--parameters", "fit.json"]);
     assert_alike(&found[0]["gravity"], &wanted[0]["gravity"], 1e-6);
     // At rest the arm of the spec has the rotor of the second joint beside what the URDF has.
-    let rotor = value(&folder, "lower.motor_inertia.ia");
     let (found, wanted) = (numbers(&found[0]["torque"]), numbers(&wanted[0]["torque"]));
     assert!((found[0] - wanted[0]).abs() < 1e-5, "{found:?} {wanted:?}");
     assert!(
@@ -300,6 +314,11 @@ fn what_cannot_be_exported_is_refused() {
     let said = refused(&["--as", "mjcf", "--urdf", "a.urdf", "-o", "out.xml"]);
     assert!(
         said.starts_with("error: `--urdf` is of `--as urdf`"),
+        "{said}"
+    );
+    let said = refused(&["--as", "mjcf", "--rotors", "in-links", "-o", "out.xml"]);
+    assert!(
+        said.starts_with("error: `--rotors in-links` is of `--as urdf`"),
         "{said}"
     );
     let said = refused(&["--as", "urdf", "-o", "arm.robot"]);

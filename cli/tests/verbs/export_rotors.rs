@@ -1,24 +1,32 @@
-//! `export` of rotors that a URDF has no place for but in links.
+//! `export` of rotors, for which a URDF has no place: apart from the links, or in them.
 
 use crate::common::Folder;
 use crate::common::moved;
-use crate::export::{EFFECTS, VALUES, export, fitted_with, import_back};
+use crate::export::{EFFECTS, IN_LINKS, VALUES, export, fitted_with, import_back};
 
 /// Center and mass of a link of which no torque tells either.
 const COLUMN: [f64; 4] = [0.03, -0.02, 0.05, 4.0];
 
-/// A rotor of ten times the link's inertia about its axis has no place in a URDF but in the link, whose mass is that of CAD all the same.
-#[test]
-fn a_rotor_in_a_link_changes_no_mass() {
+/// The pendulum with a rotor of ten times the link's inertia about its axis, fitted.
+fn with_a_large_rotor() -> Folder {
     let rotor = VALUES.replace(
         "\"upper.motor_inertia.ia\": 0.2",
         "\"upper.motor_inertia.ia\": 2.0",
     );
     assert_ne!(rotor, VALUES);
-    let folder = fitted_with(EFFECTS, &rotor);
-    let said = export(
-        &folder,
-        &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
+    fitted_with(EFFECTS, &rotor)
+}
+
+/// Such a rotor in its link leaves the mass of CAD there.
+#[test]
+fn a_rotor_in_a_link_changes_no_mass() {
+    let folder = with_a_large_rotor();
+    let said = export(&folder, &IN_LINKS);
+    // No link of CAD has ten times its inertia.
+    assert!(
+        said.contains("more than 10 times larger or smaller than the nominal ones")
+            && said.contains("`upper` "),
+        "{said}"
     );
     import_back(&folder);
     let masses = |text: &str| -> Vec<f64> {
@@ -38,7 +46,56 @@ fn a_rotor_in_a_link_changes_no_mass() {
         );
     }
     assert_eq!((given.len(), written.len()), (2, 2));
-    assert!(!said.contains("in place of"), "{said}");
+    assert!(!said.contains("kg in place of"), "{said}");
+}
+
+/// A URDF has the bodies that an MJCF model of the same fit has, and rotors are told with it, as that model has them.
+#[test]
+fn bodies_of_a_urdf_are_those_beside_its_rotors() {
+    let folder = with_a_large_rotor();
+    let fit = ["--parameters", "fit.json"];
+    let said = export(
+        &folder,
+        &[&["--as", "urdf", "-o", "out.urdf"], &fit[..]].concat(),
+    );
+    export(
+        &folder,
+        &[&["--as", "mjcf", "-o", "out.xml"], &fit[..]].concat(),
+    );
+    let (urdf, mjcf) = (folder.read("out.urdf"), folder.read("out.xml"));
+    for link in [1, 2] {
+        let of_urdf = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"].map(|k| attribute(&urdf, k, link));
+        let of_urdf = of_urdf.concat();
+        let of_mjcf = attribute(&mjcf, "fullinertia", link);
+        assert_eq!((of_urdf.len(), of_mjcf.len()), (6, 6));
+        for (x, y) in of_urdf.iter().zip(&of_mjcf) {
+            assert!((x - y).abs() < 1e-9, "{urdf}\n{mjcf}");
+        }
+        assert_eq!(
+            attribute(&urdf, "mass value", link),
+            attribute(&mjcf, "mass", link)
+        );
+    }
+    // Each rotor is told with four digits, on the terminal and in the file.
+    let rotors = [1, 2].map(|joint| attribute(&mjcf, "armature", joint)[0]);
+    assert!(rotors[0] > 1.0, "{rotors:?}");
+    let told = |name: &str, rotor: f64| {
+        format!(
+            "`{name}` {rotor:.*} kg m^2",
+            if rotor < 1.0 { 4 } else { 3 }
+        )
+    };
+    let told = format!(
+        "armature of the joints: {}, {}",
+        told("upper", rotors[0]),
+        told("lower", rotors[1])
+    );
+    assert!(
+        said.contains(&told) && urdf.contains(&told),
+        "{said}\n{told}"
+    );
+    assert!(!said.contains("times larger"), "{said}");
+    assert!(!said.contains("motor_inertia"), "{said}");
 }
 
 /// The first joint stands upright, so no torque tells where the mass of its link is: a rotor in it moves that no more than the mass.
@@ -64,10 +121,7 @@ fn a_rotor_in_a_link_moves_no_center_that_no_torque_tells() {
     folder.write("arm.robot", UPRIGHT);
     folder.succeed(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
     let fit = ["--parameters", "fit.json"];
-    let said = export(
-        &folder,
-        &[&["--as", "urdf", "-o", "out.urdf"], &fit[..]].concat(),
-    );
+    let said = export(&folder, &IN_LINKS);
     let urdf = folder.read("out.urdf");
     let [found, mass] = [
         attribute(&urdf, "origin xyz", 1),

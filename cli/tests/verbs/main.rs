@@ -4,6 +4,7 @@ mod apart;
 mod audit;
 mod audit_against;
 mod audit_base;
+mod audit_deviations;
 mod audit_seeds;
 mod bags;
 mod bending;

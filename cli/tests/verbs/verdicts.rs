@@ -225,7 +225,7 @@ fn what_says_nothing_is_refused() {
         (
             "a header alone",
             csv(&[]),
-            "log.csv: the log has 0 samples, at least 16 are needed",
+            "log.csv: the log has 0 samples, at least 16 are needed; record a longer motion",
         ),
         (
             "constant",

@@ -1,5 +1,6 @@
 //! `effects { .. }`: which effects act on which joints.
 
+mod shapes;
 mod targets;
 
 use std::sync::Arc;
@@ -8,12 +9,13 @@ use proc_macro2::Span;
 use syn::Ident;
 
 use super::energies::says_energies;
-use super::setting::{Settings, meant};
-use super::{Definitions, Errors, value};
+use super::setting::meant;
+use super::{Definitions, Errors};
 use crate::ast::{DeclaredEffect, Robot};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Act, Effect, EffectDefinition};
 use crate::suggest;
+use shapes::{check_shapes, check_units};
 use targets::check_targets;
 
 /// Every instance, in the order of the spec; `joints` are the names of the joints or coordinates.
@@ -46,7 +48,9 @@ pub(super) fn check_effects(
         if errors.len() == before {
             check_given(declared, definition, &shapes, errors);
         }
-        for (joints, span) in check_targets(joints, declared, definition, errors) {
+        let targets = check_targets(joints, declared, definition, errors);
+        check_units(robot, declared, definition, &targets, errors);
+        for (joints, span) in targets {
             let effect = Effect {
                 definition: Arc::clone(definition),
                 instance: 1 + instances
@@ -99,62 +103,6 @@ fn check_known<'a>(
         );
     }
     found
-}
-
-/// One value per shape parameter of the definition, where the declaration gives one.
-fn check_shapes(
-    declared: &DeclaredEffect,
-    definition: &EffectDefinition,
-    errors: &mut Errors,
-) -> Vec<Option<f64>> {
-    let names: Vec<&str> = definition
-        .shapes
-        .iter()
-        .map(|shape| shape.name.as_str())
-        .collect();
-    let owner = format!("effect `{}`", declared.name);
-    let settings = if names.is_empty() {
-        if let Some(setting) = declared.shapes.first() {
-            errors.push(
-                Diagnostic::new(
-                    setting.key.span(),
-                    format!("{owner} has no shape parameters"),
-                    "",
-                )
-                .help(format!(
-                    "write `{} on ..;`: linear parameters are identified, not declared",
-                    declared.name
-                )),
-            );
-        }
-        return Vec::new();
-    } else {
-        Settings::new(&declared.shapes, &owner, &names, errors)
-    };
-    let read = |shape: &crate::model::ShapeParameter| {
-        let given = settings.get(&shape.name)?;
-        let number = value::any_scalar(given);
-        let in_range = number.and_then(|number| {
-            let Some(wanted) = shape.misses(number) else {
-                return Ok(number);
-            };
-            Err(Diagnostic::new(
-                given.span(),
-                format!("`{}` of {owner} is not {wanted}", shape.name),
-                format!("is {number}"),
-            )
-            .help(format!(
-                "write {wanted}; without a value it is looked for in {} .. {}",
-                shape.low, shape.high
-            )))
-        });
-        Some(in_range)
-    };
-    let values: Vec<Option<Result<f64, Diagnostic>>> = definition.shapes.iter().map(read).collect();
-    values
-        .into_iter()
-        .map(|value| value?.map_err(|error| errors.push(error)).ok())
-        .collect()
 }
 
 /// A torque that is made of the measured one explains it whole at some shapes: a search would end there.

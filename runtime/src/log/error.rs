@@ -33,7 +33,9 @@ pub enum LogError {
         reason: String,
     },
     /// Nothing in the file.
-    #[error("{source_name}: the log is empty")]
+    #[error(
+        "{source_name}: the log is empty; name the file that has the samples, as a header `time,q1,..,tau1,..` and a row for each"
+    )]
     Empty {
         /// The file.
         source_name: String,
@@ -378,7 +380,10 @@ pub enum LogError {
         most: f64,
     },
     /// Too short for anything.
-    #[error("{source_name}: the log has {found} sample{}, at least {fewest} are needed", plural(*.found))]
+    #[error(
+        "{source_name}: the log has {found} sample{}, at least {fewest} are needed; record a longer motion, or look whether the file was cut off",
+        plural(*.found)
+    )]
     TooFewSamples {
         /// The log.
         source_name: String,

@@ -6,7 +6,7 @@ use super::LogError;
 pub(super) const BYTES: usize = 8;
 
 /// First bytes, what begins with them, and what to do.
-const KINDS: [(&[u8], &str, &str); 15] = [
+const KINDS: [(&[u8], &str, &str); 20] = [
     (
         b"#ROSBAG",
         "a bag of ROS 1",
@@ -60,13 +60,20 @@ const KINDS: [(&[u8], &str, &str); 15] = [
         "XML, as URDFs are",
         "name the log behind the spec; `robot-model import` makes a spec of a URDF",
     ),
-    (b"%PDF", "a PDF file", "name the file that has the numbers"),
+    (b"%PDF", "a PDF file", OF_NUMBERS),
     (
         b"\x80\x04",
         "a pickle of Python",
         "write it as CSV or Parquet, as `pandas.DataFrame.to_csv` does",
     ),
+    (b"\x89PNG\r\n\x1a\n", "a picture (PNG)", OF_NUMBERS),
+    (b"\xff\xd8\xff", "a picture (JPEG)", OF_NUMBERS),
+    (b"GIF87a", "a picture (GIF)", OF_NUMBERS),
+    (b"GIF89a", "a picture (GIF)", OF_NUMBERS),
+    (b"\x7fELF", "a program or a library (ELF)", OF_NUMBERS),
 ];
+
+const OF_NUMBERS: &str = "name the file that has the numbers";
 
 const IN_MATLAB: &str =
     "`writetable(table(time, q1, .., tau1, ..), \"log.csv\")` writes its channels as CSV";
@@ -107,6 +114,14 @@ mod tests {
                 b"<?xml version=\"1.0\"?>",
                 "XML, as URDFs are; name the log",
             ),
+            (b"\x89PNG\r\n\x1a\n", "a picture (PNG); name the file"),
+            (b"\xff\xd8\xff\xe0\0\x10JF", "a picture (JPEG); name"),
+            (b"GIF89a\x01\0", "a picture (GIF); name"),
+            (b"GIF87a\x01\0", "a picture (GIF); name"),
+            (
+                b"\x7fELF\x02\x01\x01\0",
+                "a program or a library (ELF); name",
+            ),
         ] {
             let said = said(start).expect_err("no log");
             assert!(
@@ -114,7 +129,13 @@ mod tests {
                 "{said}"
             );
         }
-        for start in [b"time,q1".as_slice(), b"# ROSBAG as CSV", b"PK,time", b""] {
+        for start in [
+            b"time,q1".as_slice(),
+            b"# ROSBAG as CSV",
+            b"PK,time",
+            b"GIF,time",
+            b"",
+        ] {
             assert_eq!(said(start), Ok(()));
         }
     }

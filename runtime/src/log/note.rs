@@ -157,6 +157,9 @@ impl fmt::Display for Note {
                 f,
                 "time is the sum of `{seconds}` and `{nanoseconds}`, in seconds since the first"
             ),
+            Self::LostRows { rows: 1, first } => {
+                write!(f, "one row counts as missing, since {first}")
+            }
             Self::LostRows { rows, first } => {
                 write!(
                     f,

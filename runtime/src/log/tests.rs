@@ -213,15 +213,21 @@ fn headers_are_checked() {
 
 #[test]
 fn short_and_empty_logs_are_refused() {
-    assert_eq!(refusal("", 1), "monday.csv: the log is empty");
-    assert_eq!(refusal("\n\n", 1), "monday.csv: the log is empty");
+    assert_eq!(
+        refusal("", 1),
+        "monday.csv: the log is empty; name the file that has the samples, as a header `time,q1,..,tau1,..` and a row for each"
+    );
+    assert_eq!(
+        refusal("\n\n", 1),
+        "monday.csv: the log is empty; name the file that has the samples, as a header `time,q1,..,tau1,..` and a row for each"
+    );
     assert_eq!(
         refusal("time,q1,tau1\n", 1),
-        "monday.csv: the log has 0 samples, at least 16 are needed"
+        "monday.csv: the log has 0 samples, at least 16 are needed; record a longer motion, or look whether the file was cut off"
     );
     assert_eq!(
         refusal(&text("time,q1,tau1", &rows(15)), 1),
-        "monday.csv: the log has 15 samples, at least 16 are needed"
+        "monday.csv: the log has 15 samples, at least 16 are needed; record a longer motion, or look whether the file was cut off"
     );
     let folder = Log::read(env!("CARGO_MANIFEST_DIR"), 1)
         .expect_err("a folder is no log")

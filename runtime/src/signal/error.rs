@@ -64,7 +64,7 @@ pub enum SignalError {
     },
     /// The filters' transients are as long as the log.
     #[error(
-        "{source_name}: a log of {seconds:.3} s is too short for a low-pass at {} Hz; at least {needed:.3} s are needed",
+        "{source_name}: a log of {seconds:.3} s is too short for a low-pass at {} Hz; at least {needed:.3} s are needed; record a longer motion, or give wider bands, as `--bands` does",
         short(*.shared_hz)
     )]
     TooShort {

@@ -58,7 +58,7 @@ fn parquet_files_are_read_as_csv_is() {
     let told: Vec<String> = log.report.iter().map(ToString::to_string).collect();
     assert_eq!(
         told[0],
-        "1 rows count as missing, the first of them since tuesday:618: `null or NaN` in column `tau1` is not a number; \
+        "one row counts as missing, since tuesday:618: `null or NaN` in column `tau1` is not a number; \
          repair or remove the row"
     );
 }

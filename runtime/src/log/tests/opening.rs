@@ -54,7 +54,7 @@ fn comments_alone_are_no_log() {
     for empty in ["", "\n\n", "# time,q1,tau1\n", "# a\n% b"] {
         assert_eq!(
             refusal(empty, 1),
-            "monday.csv: the log is empty",
+            "monday.csv: the log is empty; name the file that has the samples, as a header `time,q1,..,tau1,..` and a row for each",
             "{empty:?}"
         );
     }

@@ -123,7 +123,7 @@ fn refusals_carry_their_numbers() {
     );
     assert_eq!(
         text(&Bands::for_log(&log)),
-        "a test: a log of 0.170 s is too short for a low-pass at 10 Hz; at least 0.220 s are needed"
+        "a test: a log of 0.170 s is too short for a low-pass at 10 Hz; at least 0.220 s are needed; record a longer motion, or give wider bands, as `--bands` does"
     );
     assert!(
         prepare(
