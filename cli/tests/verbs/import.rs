@@ -44,7 +44,10 @@ fn import_refuses_what_it_cannot_use() {
         "{said}"
     );
     // The line is shown, and in it what is at fault.
-    folder.write("unit.urdf", &URDF.replacen("value=\"4\"", "value=\"4 kg\"", 1));
+    folder.write(
+        "unit.urdf",
+        &URDF.replacen("value=\"4\"", "value=\"4 kg\"", 1),
+    );
     let said = folder.refuse(&["import", "unit.urdf", "-o", "arm.robot"]);
     let [line, caret] = ["value=\"4 kg\"", "^^^^^^^^^^^^"].map(|sign| {
         let lines = said.lines().skip(1).filter_map(|line| line.find(sign));
