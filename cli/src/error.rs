@@ -6,7 +6,7 @@ use robot_model::identify::IdentifyError;
 use robot_model::log::LogError;
 use robot_model_spec::Diagnostics;
 use robot_model_spec::suggest::nearest;
-use robot_model_spec::urdf::Fault;
+use robot_model_spec::urdf::UrdfFault;
 use thiserror::Error;
 
 use crate::snippet::{self, Mark};
@@ -59,7 +59,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
         /// What is wrong with it, with the line.
-        fault: Fault,
+        fault: UrdfFault,
     },
     /// An argument that is well formed and makes no sense.
     #[error("{0}")]

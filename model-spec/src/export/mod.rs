@@ -13,7 +13,7 @@ mod xml;
 use thiserror::Error;
 
 use crate::model::{Chain, Model};
-use crate::urdf::Fault;
+use crate::urdf::UrdfFault;
 
 pub use mjcf::mjcf;
 pub use urdf::{NO_LIMIT, NO_RANGE, made_up_limits, urdf};
@@ -74,7 +74,7 @@ pub enum ExportError {
     NoChain(String),
     /// The original is no URDF.
     #[error("the URDF does not parse: {0}")]
-    Parse(Fault),
+    Parse(UrdfFault),
     /// The original is of another arm.
     #[error(
         "the URDF has no chain of the joints {}; give the URDF that the spec was imported from, or leave `--urdf` out",

@@ -23,7 +23,7 @@ mod write;
 use thiserror::Error;
 
 pub use back::{WrittenBack, write_back};
-pub use fault::Fault;
+pub use fault::UrdfFault;
 
 use crate::diagnostic::Diagnostics;
 
@@ -75,7 +75,7 @@ pub enum Inertials {
 pub enum ImportError {
     /// Not XML, or not URDF.
     #[error("the URDF does not parse: {0}")]
-    Parse(Fault),
+    Parse(UrdfFault),
     /// A name that the URDF does not have.
     #[error("the URDF has no link `{name}`; {help}")]
     UnknownLink {

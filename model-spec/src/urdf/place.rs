@@ -7,7 +7,7 @@ use xml::common::Position as _;
 use xml::name::OwnedName;
 use xml::reader::{EventReader, XmlEvent};
 
-use super::{Fault, ImportError};
+use super::{ImportError, UrdfFault};
 
 /// What an attribute has to be.
 #[derive(Clone, Copy)]
@@ -160,15 +160,15 @@ pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
             Ok(XmlEvent::EndDocument) | Err(_) => return Ok(()),
             Ok(_) => continue,
         };
-        return Err(ImportError::Parse(Fault::in_line(line, fault)));
+        return Err(ImportError::Parse(UrdfFault::in_line(line, fault)));
     }
 }
 
 /// Where and why `urdf` cannot be read; `said`, the library's words, where no rule of this file is broken.
-pub(super) fn explain(urdf: &str, said: &str) -> Fault {
+pub(super) fn explain(urdf: &str, said: &str) -> UrdfFault {
     if let Some(declared) = declared_entity(urdf) {
         let line = urdf[..declared].matches('\n').count() as u64 + 1;
-        return Fault::in_line(
+        return UrdfFault::in_line(
             line,
             "`<!ENTITY ..>` declares an entity, and URDFs are read without them: write what it stands for in its place",
         );
@@ -209,15 +209,15 @@ pub(super) fn explain(urdf: &str, said: &str) -> Fault {
                 let fault = missing_part(&open, &owner);
                 open.pop().and_then(|end| Some((end.line, fault?)))
             }
-            Ok(XmlEvent::EndDocument) => return Fault::of_all(said),
+            Ok(XmlEvent::EndDocument) => return UrdfFault::of_all(said),
             Ok(_) => None,
             Err(error) => {
                 let line = error.position().row + 1;
-                return Fault::in_line(line, not_xml(error.msg(), &open));
+                return UrdfFault::in_line(line, not_xml(error.msg(), &open));
             }
         };
         if let Some((line, fault)) = fault {
-            return Fault::in_line(line, fault);
+            return UrdfFault::in_line(line, fault);
         }
     }
 }

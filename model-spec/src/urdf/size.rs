@@ -3,7 +3,7 @@
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-use super::{Fault, ImportError};
+use super::{ImportError, UrdfFault};
 
 /// Bytes. Meshes are files of their own; what is left of the largest robots has a tenth of this.
 const LARGEST: usize = 16 * 1024 * 1024;
@@ -25,7 +25,7 @@ pub(super) fn check(urdf: &str) -> Result<(), ImportError> {
     let refuse = |at: usize, what: String| {
         let lines = urdf.as_bytes()[..at].split(|byte| *byte == b'\n');
         let line = u64::try_from(lines.count()).unwrap_or(u64::MAX);
-        Err(ImportError::Parse(Fault::in_line(line, what)))
+        Err(ImportError::Parse(UrdfFault::in_line(line, what)))
     };
     if urdf.len() > LARGEST {
         let what = format!(
