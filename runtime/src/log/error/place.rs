@@ -17,6 +17,7 @@ pub struct TextPlace<'a> {
 impl LogError {
     /// The line that the error is about; none where it is about the whole file, or where the log has no lines.
     ///
+    /// # Examples
     /// ```
     /// # use robot_model::log::Log;
     /// let error = Log::from_reader("arm.csv", "time,q1,tau1\n0,0.1,2\n0.01,O.1,2\n".as_bytes(), 1).expect_err("a letter for a digit");
