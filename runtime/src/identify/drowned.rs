@@ -82,26 +82,29 @@ pub(crate) struct TorqueOfNoise {
 }
 
 /// What as much noise again on the positions makes of a model's torque, joint by joint: about what the noise that they have makes. Zero where
-/// that is not known.
+/// that is not known. The noise is that of logs as they are prepared for rows, the torque that along `motions`, whose bands may be others.
 pub(crate) fn torque_of_noise(
     arm: &dyn Arm,
     (logs, prepared, bands): (&[Log], &[Prepared], &Bands),
+    (motions, along): (&[Prepared], &Bands),
     (shapes, estimate): (&[f64], &[f64]),
 ) -> Result<Vec<TorqueOfNoise>, IdentifyError> {
     let dof = arm.dof();
     let mut made = vec![TorqueOfNoise::default(); dof];
     let (mut samples, mut rows) = (0, 0);
     let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
-    for (seed, (log, prepared)) in logs.iter().zip(prepared).enumerate() {
+    let pairs = logs.iter().zip(prepared).zip(motions);
+    for (seed, ((log, prepared), own)) in pairs.enumerate() {
         let Some(noisy) = noisier(log, prepared, bands, seed as u64) else {
             return Ok(vec![TorqueOfNoise::default(); dof]);
         };
-        let mut noisy = prepare(&noisy, bands)?.motion;
-        noisy.turn_speeds.clone_from(&prepared.motion.turn_speeds);
-        noisy.rigid_torque.clone_from(&prepared.motion.rigid_torque);
+        let own = &own.motion;
+        let mut noisy = prepare(&noisy, along)?.motion;
+        noisy.turn_speeds.clone_from(&own.turn_speeds);
+        noisy.rigid_torque.clone_from(&own.rigid_torque);
         // What is known of the arm reads the same positions.
         let [with, without] =
-            [&noisy, &prepared.motion].map(|motion| whole_torque(arm, motion, shapes, estimate));
+            [&noisy, own].map(|motion| whole_torque(arm, motion, shapes, estimate));
         let border = prepared.shared.border();
         let inner = border..prepared.motion.time.len().saturating_sub(border);
         samples += inner.len();

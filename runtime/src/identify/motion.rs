@@ -41,8 +41,10 @@ impl Estimate {
             .filter(|hz| *hz <= MOST_OF_RATE * slowest);
         let of_narrow = wide.map(|wide_hz| self.with_motion(narrow, wide_hz));
         self.motion_bands = self.least(arm, logs, of_narrow.collect())?;
-        let as_fitted = self.with_motion(self.bands.smooth_hz, self.motion_bands.wide_hz);
-        self.motion_bands = self.least(arm, logs, vec![as_fitted])?;
+        // A calm one, of the band that is fitted, is for accelerations that are mostly noise.
+        let smooth = [self.bands.smooth_hz, self.bands.shared_hz];
+        let of_wide = smooth.map(|hz| self.with_motion(hz, self.motion_bands.wide_hz));
+        self.motion_bands = self.least(arm, logs, of_wide.to_vec())?;
         Ok(self)
     }
 

@@ -43,15 +43,28 @@ pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f64>
     let shares = joints.map(|(ddq, density)| {
         let mut filtered = Vec::new();
         prepared.shared.apply(ddq, &mut filtered);
-        let power = filtered.iter().map(|x| x * x).sum::<f64>() / filtered.len().max(1) as f64;
-        let noise = density * within;
-        if power > 0.0 {
-            (noise / power).min(1.0)
-        } else {
-            0.0
-        }
+        share(density * within, &filtered)
     });
     Some(shares.collect())
+}
+
+/// The same of each joint's acceleration as it is, within the smooth band.
+pub(crate) fn raw_acceleration_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f64>> {
+    let densities = position_noise(prepared, bands)?;
+    let within = power(bands.smooth_hz, 4, |hz| passed(hz, bands.smooth_hz));
+    let joints = prepared.motion.smooth.ddq.iter().zip(densities);
+    let shares = joints.map(|(ddq, density)| share(density * within, ddq));
+    Some(shares.collect())
+}
+
+/// The share of a signal's power that is noise of this power; none of a signal of zeros.
+fn share(noise: f64, signal: &[f64]) -> f64 {
+    let power = signal.iter().map(|x| x * x).sum::<f64>() / signal.len().max(1) as f64;
+    if power > 0.0 {
+        (noise / power).min(1.0)
+    } else {
+        0.0
+    }
 }
 
 /// Density of the noise of each joint's position, `S` of [`acceleration_noise`], rad^2/Hz or m^2/Hz; none where nothing tells it.

@@ -11,6 +11,7 @@ use crate::columns::{Arm, Change, Entry};
 use crate::identify::{IdentifyError, Stack, load_motion, with_slopes};
 use crate::signal::Prepared;
 
+use super::calm::calmest;
 use super::raw::above;
 use super::residual::raw_residuals;
 use super::search::{Search, State};
@@ -99,7 +100,7 @@ impl Search<'_> {
         let Some(mut own) = first_guess(change, gain) else {
             return Ok(None);
         };
-        let mut logs = self.prepared.clone();
+        let (mut logs, mut calm) = (self.prepared.clone(), self.calm.clone());
         let shapes = self.with_own(&own);
         let numbers = shapes.len() - own.len()..shapes.len();
         let (solution, ..) = self.identify.solve(arm, &mut logs, Some(shapes))?;
@@ -107,6 +108,7 @@ impl Search<'_> {
         for _ in 0..STEPS {
             let shapes = self.with_own(&own);
             load(arm, &mut logs, &shapes, &estimate);
+            load(arm, &mut calm, &shapes, &estimate);
             let rows = |shapes: &[f64]| {
                 let mut stack = self.identify.rows(arm, &logs, shapes);
                 for effect in &state.accepted {
@@ -138,10 +140,12 @@ impl Search<'_> {
                 });
                 let mut motions = logs.iter().map(|log| &log.motion);
                 let follows_torque = motions.any(|motion| !motion.transmitted_torque.is_empty());
-                let raw = logs
-                    .iter()
-                    .map(|log| raw_residuals(arm, &shapes, &plain.estimate, &state.accepted, log));
-                let raw: Vec<_> = raw.collect();
+                let of_log = |log: &Prepared| {
+                    raw_residuals(arm, &shapes, &plain.estimate, &state.accepted, log)
+                };
+                let motions = [&logs, &calm].into_iter().filter(|logs| !logs.is_empty());
+                let raw = calmest(motions.map(|logs| logs.iter().map(of_log).collect()));
+                let raw = raw.residuals;
                 let noise_power = above(&raw, &self.beyond_all(&raw), &filtered);
                 let segments = &state.stack.segments;
                 let structure = self.structure_in(segments, &raw, &filtered, &|_, _| 0.0);

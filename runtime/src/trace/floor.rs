@@ -106,9 +106,9 @@ impl Floor {
 impl Search<'_> {
     /// The floor of every joint, in the residual of a model.
     pub(super) fn floor(&self, state: &State) -> Vec<Floor> {
-        let logs = self.prepared.iter();
-        let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
-        let beyond = self.beyond_all(&raw);
+        let calmest = self.raw_residuals(state);
+        let raw = &calmest.residuals;
+        let beyond = self.beyond_all(raw);
         let periodic = self.periods.iter().copied().collect::<Option<Vec<f64>>>();
         let of_joint = |joint: usize| {
             let changing = periodic.as_ref().and_then(|periods| {
@@ -121,9 +121,9 @@ impl Search<'_> {
             if let Some(parts) = changing {
                 let parts = parts.into_iter().flatten();
                 let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
-                let left = self.left_away(&raw, joint);
+                let left = self.left_away(raw, joint);
                 // Steps of an encoder come back with the motion, and are no torque.
-                let noise = STEPS_OVER_NOISE * self.position_noise[joint].raw;
+                let noise = STEPS_OVER_NOISE * self.raw_noise(&calmest, joint);
                 return Floor {
                     left: left.map(|left| (left + beyond[joint] - noise).max(0.0).sqrt()),
                     ..Floor::of_parts(&parts, FloorFrom::Periods)

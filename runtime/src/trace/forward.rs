@@ -12,6 +12,7 @@ use crate::log::Log;
 use crate::signal::{Bands, Prepared, period};
 
 use super::away::Looks;
+use super::calm;
 use super::conclude::{changed, verdict};
 use super::folds;
 use super::grid::Grid;
@@ -133,10 +134,19 @@ impl<'a> Trace<'a> {
         let of_log = |log: &Prepared| period(&log.motion.wide.q, log.rate_hz);
         let periods: Vec<Option<f64>> = prepared.iter().map(of_log).collect();
         let estimate = &solution.estimate[..];
-        let position_noise = torque_of_noise(arm, (logs, &prepared, &bands), (&shapes, estimate))?;
+        let noise = |motions: &[Prepared], along: &Bands| {
+            let (of_logs, along) = ((logs, &prepared[..], &bands), (motions, along));
+            torque_of_noise(arm, of_logs, along, (&shapes, estimate))
+        };
+        let position_noise = noise(&prepared, &bands)?;
+        let along = calm::bands(&bands);
+        let calm = calm::logs(logs, &prepared, &bands)?;
+        let calm_noise = noise(&calm, &along)?;
         let mut search = Search {
             arm,
             position_noise,
+            calm,
+            calm_noise,
             identify,
             shapes,
             shared_hz: bands.shared_hz,

@@ -33,6 +33,7 @@
 //! ```
 
 mod away;
+mod calm;
 mod change;
 mod choose;
 mod conclude;

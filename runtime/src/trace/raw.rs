@@ -6,17 +6,23 @@
 use crate::columns::Entry;
 use crate::signal::Prepared;
 
+use super::calm::calmest;
 use super::projected::Projected;
 use super::residual::{clear, left_out};
 use super::search::{Search, State};
 use super::trial::Trial;
 
-/// The present model's columns and residual on raw samples of every log, both ends cut.
-pub(super) struct Raw<'a> {
+/// The present model's columns along one motion of every log.
+struct Along<'a> {
     logs: &'a [Prepared],
     columns: Vec<Vec<Entry>>,
-    /// `[log][joint][sample]`
+    /// `[log][joint][sample]`, both ends cut.
     residuals: Vec<Vec<Vec<f64>>>,
+}
+
+/// The present model's columns and residuals on raw samples of every log.
+pub(super) struct Raw<'a> {
+    motions: Vec<Along<'a>>,
     /// Which samples say nothing, `[log][joint][sample]`.
     left_out: Vec<Vec<Vec<bool>>>,
     /// Mean square per joint of what decimation took off the torque.
@@ -41,14 +47,13 @@ impl Search<'_> {
             }
             columns
         };
+        let along = |logs: &'a [Prepared]| Along {
+            logs,
+            columns: logs.iter().map(of_log).collect(),
+            residuals: self.raw_residuals_along(state, logs),
+        };
         let mut raw = Raw {
-            logs: &self.prepared,
-            columns: self.prepared.iter().map(of_log).collect(),
-            residuals: self
-                .prepared
-                .iter()
-                .map(|log| self.raw_residuals(state, log))
-                .collect(),
+            motions: self.motions().map(along).collect(),
             left_out: self
                 .prepared
                 .iter()
@@ -57,8 +62,9 @@ impl Search<'_> {
             beyond: Vec::new(),
             noise_power: Vec::new(),
         };
-        raw.beyond = self.beyond_all(&raw.residuals);
-        raw.noise_power = raw.above(&raw.residuals, &state.residuals);
+        let present = calmest(raw.motions.iter().map(|along| along.residuals.clone()));
+        raw.beyond = self.beyond_all(&present.residuals);
+        raw.noise_power = above(&present.residuals, &raw.beyond, &state.residuals);
         raw
     }
 }
@@ -74,9 +80,21 @@ impl Raw<'_> {
         if trial.candidate.change().is_some() {
             return self.noise_power.clone();
         }
+        let left = self.motions.iter();
+        let left = calmest(left.map(|along| self.left_along(along, trial, projected)));
+        above(&left.residuals, &self.beyond, filtered)
+    }
+
+    /// What a trial leaves of raw residuals along one motion.
+    fn left_along(
+        &self,
+        along: &Along,
+        trial: &Trial,
+        projected: &Projected,
+    ) -> Vec<Vec<Vec<f64>>> {
         let change = projected.change();
-        let mut left = self.residuals.clone();
-        let logs = self.logs.iter().zip(&self.columns).zip(&self.left_out);
+        let mut left = along.residuals.clone();
+        let logs = along.logs.iter().zip(&along.columns).zip(&self.left_out);
         for (((log, columns), left_out), left) in logs.zip(&mut left) {
             let border = log.shared.border();
             let mut add = |entry: &Entry, factor: f64| {
@@ -97,12 +115,7 @@ impl Raw<'_> {
             }
             clear(left, left_out);
         }
-        self.above(&left, filtered)
-    }
-
-    /// Mean square of raw residuals beyond that of filtered ones, per joint.
-    fn above(&self, raw: &[Vec<Vec<f64>>], filtered: &[Vec<f64>]) -> Vec<f64> {
-        above(raw, &self.beyond, filtered)
+        left
     }
 }
 

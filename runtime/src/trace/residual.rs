@@ -5,21 +5,32 @@ use crate::identify::{Segment, left_out, torque_of, whole_torque};
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
+use super::calm::{Calmest, calmest};
 use super::floor::STEPS_OVER_NOISE;
 use super::periodic;
 use super::search::{Accepted, Search, State};
 use super::structure::{self, RawResidual, Structure};
 
 impl Search<'_> {
-    /// Raw residuals of one log, `[joint][sample]`, both ends cut.
-    pub(super) fn raw_residuals(&self, state: &State, log: &Prepared) -> Vec<Vec<f64>> {
-        raw_residuals(
-            self.arm,
-            &self.shapes,
-            &state.solution.estimate,
-            &state.accepted,
-            log,
+    /// Raw residuals of the present model along the logs' motion that leaves each joint least.
+    pub(super) fn raw_residuals(&self, state: &State) -> Calmest {
+        calmest(
+            self.motions()
+                .map(|logs| self.raw_residuals_along(state, logs)),
         )
+    }
+
+    /// Those along one motion of the logs, `[log][joint][sample]`, both ends cut.
+    pub(super) fn raw_residuals_along(
+        &self,
+        state: &State,
+        logs: &[Prepared],
+    ) -> Vec<Vec<Vec<f64>>> {
+        let of_log = |log: &Prepared| {
+            let estimate = &state.solution.estimate;
+            raw_residuals(self.arm, &self.shapes, estimate, &state.accepted, log)
+        };
+        logs.iter().map(of_log).collect()
     }
 
     /// Torque of the present model along a log, `[joint][sample]`.
@@ -86,8 +97,7 @@ impl Search<'_> {
         state: &State,
         stepped: &dyn Fn(usize, usize) -> f64,
     ) -> Vec<Structure> {
-        let logs = self.prepared.iter();
-        let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
+        let raw = self.raw_residuals(state).residuals;
         self.structure_in(&state.stack.segments, &raw, &state.residuals, stepped)
     }
 

@@ -67,7 +67,14 @@ impl Search<'_> {
     /// The torque that explains most of those that have nothing against them but their size.
     pub(super) fn small<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Option<Accepted<'a>> {
         let mut judged = self.judged(state, grids, &mut |_| ());
-        judged.retain(|judged| judged.refusals == [Refusal::Small] && judged.changed.is_none());
+        // What makes a raw error worse is mostly noise of its own columns, beside which structure that stays would seem small.
+        let is_quiet = |judged: &Judged| {
+            let mut percent = judged.evidence.raw_percent.iter();
+            percent.all(|percent| *percent > -MATERIAL_PERCENT)
+        };
+        judged.retain(|judged| {
+            judged.refusals == [Refusal::Small] && judged.changed.is_none() && is_quiet(judged)
+        });
         let best = judged
             .into_iter()
             .max_by(|a, b| a.merit.total_cmp(&b.merit))?;

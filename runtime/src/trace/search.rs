@@ -61,8 +61,11 @@ pub(super) struct Search<'s> {
     /// Unknowns that the logs do not excite: held at zero throughout.
     pub(super) unexcited: Vec<usize>,
     pub(super) prepared: Vec<Prepared>,
-    /// What noise of the positions makes of each joint's torque by the declared model.
+    /// The logs with a calm motion; none where their own is calm enough.
+    pub(super) calm: Vec<Prepared>,
+    /// What noise of the positions makes of each joint's torque by the declared model: of the motion of rows, and of the calm one.
     pub(super) position_noise: Vec<TorqueOfNoise>,
+    pub(super) calm_noise: Vec<TorqueOfNoise>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
     /// Independent tests that all candidates are worth, found in the first round.
@@ -80,7 +83,7 @@ impl Search<'_> {
             .identify
             .creeping(&state.stack, &self.prepared, joints)?;
         for &(joint, speed) in &found {
-            for log in &mut self.prepared {
+            for log in self.prepared.iter_mut().chain(&mut self.calm) {
                 log.motion.turn_speeds[joint] = speed;
             }
         }
@@ -134,7 +137,7 @@ impl Search<'_> {
     /// Effects that depend on the load see the torque of the rigid body at the present estimate.
     pub(super) fn update_rigid_torque(&mut self, state: &State) {
         let own = self.arm.unknowns().len();
-        for log in &mut self.prepared {
+        for log in self.prepared.iter_mut().chain(&mut self.calm) {
             let estimate = &state.solution.estimate[..own];
             load_motion(self.arm, &mut log.motion, &self.shapes, estimate);
         }
