@@ -1,7 +1,7 @@
 //! What is to be known of a verdict before anybody acts on it.
 
 use robot_model::columns::Arm;
-use robot_model::trace::Outcome;
+use robot_model::trace::{Floor, Outcome};
 
 use crate::close_the_loop::Loop;
 use crate::identify::noted::mixed;
@@ -26,7 +26,8 @@ pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
         .chain(vanished(closed))
         .chain(said_of_doubtful(closed))
         .chain(impossible(closed))
-        .chain(of_springs(closed));
+        .chain(of_springs(closed))
+        .chain(beyond_floor(closed));
     of_logs
         .chain(not_borne_out(closed))
         .chain(hardly_borne_out(closed))
@@ -93,6 +94,28 @@ fn of_springs(closed: &Loop) -> Option<String> {
     let is_declared = mixed(closed.before.arm.compiled()).is_some();
     let changed = closed.changed.as_ref().filter(|_| !is_declared)?;
     mixed(changed.arm.compiled())
+}
+
+/// That a model with what was found leaves far more than noise: a name is no claim that nothing else is missing.
+fn beyond_floor(closed: &Loop) -> Option<String> {
+    if closed.outcome() != Outcome::Explained {
+        return None;
+    }
+    let names = closed.before.arm.joints().iter().map(String::as_str);
+    let floors = closed.verdict.noise_floor.iter();
+    said_of_floors(names.zip(floors.map(Floor::exceeded)))
+}
+
+/// Joints with how many times the floor is left of them, where that is too much.
+fn said_of_floors<'a>(joints: impl Iterator<Item = (&'a str, Option<f64>)>) -> Option<String> {
+    let told = joints.filter_map(|(name, times)| Some(format!("{:.1} on {name}", times?)));
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "away from turns the amended model leaves this many times the noise floor: {}; the logs hold more than the effects named here",
+            told.join(", ")
+        )
+    })
 }
 
 /// That the log which was not fitted shows what those that were do not: no verdict is of that.
@@ -188,7 +211,7 @@ pub(super) fn on_joints(closed: &Loop, kind: &str, on: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::said_of_falls;
+    use super::{said_of_falls, said_of_floors};
 
     #[test]
     fn a_law_that_does_far_less_on_another_motion_is_told() {
@@ -200,5 +223,16 @@ mod tests {
         assert_eq!(said_of_falls("elbow", 0.6, 0.4), None);
         // Little that is hardly there.
         assert_eq!(said_of_falls("elbow", 0.1, 0.01), None);
+    }
+
+    #[test]
+    fn joints_that_are_left_far_from_the_floor_are_told() {
+        let told = said_of_floors([("hip", None), ("knee", Some(4.96))].into_iter());
+        let told = told.expect("one joint is far from it");
+        assert!(
+            told.contains("this many times the noise floor: 5.0 on knee;"),
+            "{told}"
+        );
+        assert_eq!(said_of_floors([("hip", None)].into_iter()), None);
     }
 }

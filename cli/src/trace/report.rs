@@ -1,6 +1,8 @@
 //! What a trace found, as JSON.
 
-use robot_model::trace::{Alternative, Evidence, Finding, Share, TermShare, Tried, Whereabouts};
+use robot_model::trace::{
+    Alternative, Evidence, Finding, Floor, Share, TermShare, Tried, Whereabouts,
+};
 use serde::Serialize;
 
 use super::doubt::{borne_out, unlike};
@@ -29,6 +31,8 @@ pub(crate) struct Report<'a> {
     noise_floor_std: Vec<f64>,
     /// Per joint: periods or curves.
     noise_floor_from: Vec<&'static str>,
+    /// Where the motion repeats, what the last model leaves of samples away from turns over that, per joint.
+    times_noise_floor: Vec<Option<f64>>,
     /// Speeds below which dry friction does not act in full, per joint, rad/s or m/s.
     turn_speeds: &'a [f64],
     /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
@@ -217,6 +221,7 @@ impl<'a> Report<'a> {
                 .iter()
                 .map(|floor| floor.from.name())
                 .collect(),
+            times_noise_floor: verdict.noise_floor.iter().map(Floor::times).collect(),
             turn_speeds: &closed.after().turn_speeds,
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),

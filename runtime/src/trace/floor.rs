@@ -84,6 +84,24 @@ impl Floor {
         }
     }
 
+    /// How many times the floor the model leaves of samples away from the joint's turns: [`Self::left`] over [`Self::rms`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let traced = Trace::new(vec![&candidate]).run(&arm, &[measure(0.7)], &mut |_| ())?;
+    /// let floor = traced.noise_floor[0];
+    /// assert_eq!(floor.times(), floor.left.map(|left| left / floor.rms));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub fn times(&self) -> Option<f64> {
+        Some(self.left? / self.rms.max(f64::MIN_POSITIVE))
+    }
+
     /// How many times the floor the model leaves, where that is too much for what differs from period to period: more than three times.
     ///
     /// # Examples
@@ -98,8 +116,7 @@ impl Floor {
     /// ```
     #[must_use]
     pub fn exceeded(&self) -> Option<f64> {
-        let times = self.left? / self.rms.max(f64::MIN_POSITIVE);
-        (times > BEYOND).then_some(times)
+        self.times().filter(|times| *times > BEYOND)
     }
 }
 
