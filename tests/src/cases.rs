@@ -20,8 +20,115 @@ pub struct Case {
     pub dof: usize,
     /// The log to fit.
     pub identify: PathBuf,
+    /// The log to judge on.
+    pub validate: PathBuf,
+    /// What a trace is to say.
+    pub key: Key,
+}
+
+/// What a trace is to say of a case, and how small its error can get.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Key {
     /// The outcome that a trace is to have.
     pub expected_outcome: String,
+    /// What is in the arm and not in its spec.
+    pub effects: Vec<KeyEffect>,
+    /// Other answers that count.
+    accept: Vec<Accepted>,
+    /// Joints, from 1, whose errors count; all where there are none.
+    scored_joints: Vec<usize>,
+    validate: Achievable,
+}
+
+/// An effect of a key.
+#[derive(Debug, Clone, Deserialize)]
+pub struct KeyEffect {
+    /// Its kind, as `SCHEMA.md` has it.
+    pub kind: String,
+    joint: Option<usize>,
+    joints: Option<Vec<usize>>,
+    /// Its parameters, SI.
+    #[serde(default)]
+    pub params: serde_json::Map<String, serde_json::Value>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct Accepted {
+    outcome: Option<String>,
+    kind: Option<String>,
+    #[serde(rename = "for")]
+    stands_for: Option<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+struct Achievable {
+    achievable_rms_validate: Vec<f64>,
+}
+
+/// Kinds that are the same in these logs.
+const SAME: [[&str; 2]; 1] = [["asymmetric-coulomb", "torque-offset"]];
+
+/// Kinds of the arm as a whole, wherever they are said to be.
+const WITHOUT_JOINT: [&str; 5] = [
+    "base-tilt",
+    "payload",
+    "time-delay",
+    "external-force",
+    "corrupt-samples",
+];
+
+impl KeyEffect {
+    /// Joints, from 1; none of the arm as a whole.
+    fn joints(&self) -> Vec<usize> {
+        let one = || self.joint.into_iter().collect();
+        self.joints.clone().unwrap_or_else(one)
+    }
+}
+
+impl Key {
+    /// Whether a trace says what the key says: the outcome, and where effects are named each of them and nothing else. `said` are kinds
+    /// with joints from 1. The rules are those of the scorer beside the cases, without its neighbors.
+    #[must_use]
+    pub fn is_met(&self, outcome: &str, said: &[(String, Vec<usize>)]) -> bool {
+        let accepts = |one: &Accepted| one.outcome.as_deref() == Some(outcome);
+        if self.expected_outcome != "explained" || outcome != "explained" {
+            let is_quiet = said.is_empty() || outcome == "explained";
+            return is_quiet
+                && (outcome == self.expected_outcome || self.accept.iter().any(accepts));
+        }
+        let is_named = |effect: &KeyEffect| said.iter().any(|said| self.stands_for(effect, said));
+        said.len() == self.effects.len() && self.effects.iter().all(is_named)
+    }
+
+    fn stands_for(&self, effect: &KeyEffect, (kind, joints): &(String, Vec<usize>)) -> bool {
+        let kinds = [effect.kind.as_str(), kind.as_str()];
+        let is_same = kinds[0] == kinds[1]
+            || SAME
+                .iter()
+                .any(|same| kinds.iter().all(|kind| same.contains(kind)));
+        let is_accepted = || {
+            self.accept.iter().any(|one| {
+                one.kind.as_deref() == Some(kind)
+                    && one.stands_for.as_ref().is_none_or(|of| *of == effect.kind)
+            })
+        };
+        let own = effect.joints();
+        let is_there = own.is_empty()
+            || WITHOUT_JOINT.contains(&effect.kind.as_str())
+            || joints.iter().any(|joint| own.contains(joint));
+        is_there && (is_same || is_accepted())
+    }
+
+    /// Errors on the log to judge on over the least that they can be, of the worst joint that counts.
+    #[must_use]
+    pub fn over_achievable(&self, rmse: &[f64]) -> f64 {
+        let all = 1..=rmse.len();
+        let counts =
+            |joint: &usize| self.scored_joints.is_empty() || self.scored_joints.contains(joint);
+        let of_joint =
+            |joint: usize| rmse[joint - 1] / self.validate.achievable_rms_validate[joint - 1];
+        all.filter(counts).map(of_joint).fold(0.0, f64::max)
+    }
 }
 
 #[derive(Deserialize)]
@@ -43,18 +150,19 @@ struct Declared {
     effects: Vec<String>,
 }
 
-#[derive(Deserialize)]
-struct Key {
-    expected_outcome: String,
-}
-
 /// All open cases, where they are there.
 #[must_use]
 pub fn open() -> Vec<Case> {
-    let Some(root) = shared::find("cases", "the open benchmark cases") else {
-        return Vec::new();
-    };
-    let folders = fs::read_dir(root).expect("a readable folder");
+    shared::find("cases", "the open benchmark cases").map_or_else(Vec::new, |root| all(&root))
+}
+
+/// All cases with keys of a folder, a folder each.
+///
+/// # Panics
+/// Where a file is missing or not as `SCHEMA.md` says.
+#[must_use]
+pub fn all(root: &Path) -> Vec<Case> {
+    let folders = fs::read_dir(root).unwrap_or_else(|error| panic!("{}: {error}", root.display()));
     let mut folders: Vec<PathBuf> = folders
         .map(|folder| folder.expect("a readable folder").path())
         .filter(|folder| folder.join("key.json").exists())
@@ -98,6 +206,52 @@ fn read(folder: &Path) -> Case {
         spec: imported.spec,
         dof: robot.dof,
         identify: folder.join("identify.csv.gz"),
-        expected_outcome: key.expected_outcome,
+        validate: folder.join("validate.csv.gz"),
+        key,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(outcome: &str, effects: &str, accept: &str) -> Key {
+        let text = format!(
+            r#"{{"expected_outcome": "{outcome}", "effects": {effects}, "accept": {accept},
+                "scored_joints": [2], "validate": {{"achievable_rms_validate": [1.0, 0.5]}}}}"#
+        );
+        serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+    }
+
+    fn said(kind: &str, joints: &[usize]) -> (String, Vec<usize>) {
+        (kind.to_owned(), joints.to_vec())
+    }
+
+    #[test]
+    fn an_answer_has_every_effect_of_its_key_and_no_other() {
+        let key = key("explained", r#"[{"kind": "stribeck", "joint": 2}]"#, "[]");
+        assert!(key.is_met("explained", &[said("stribeck", &[2])]));
+        assert!(!key.is_met("explained", &[said("stribeck", &[1])]));
+        assert!(!key.is_met("explained", &[said("backlash", &[2])]));
+        let both = [said("stribeck", &[2]), said("backlash", &[1])];
+        assert!(!key.is_met("explained", &both));
+        assert!(!key.is_met("unexplained", &[]));
+        assert_eq!(key.over_achievable(&[9.0, 0.6]), 0.6 / 0.5);
+    }
+
+    #[test]
+    fn what_a_key_accepts_counts() {
+        let accept = r#"[{"kind": "backlash", "joint": 2, "for": "stribeck"}]"#;
+        let explained = key("explained", r#"[{"kind": "stribeck", "joint": 2}]"#, accept);
+        assert!(explained.is_met("explained", &[said("backlash", &[2])]));
+        let silent = key("nothing-missing", "[]", r#"[{"outcome": "unexplained"}]"#);
+        assert!(silent.is_met("unexplained", &[]) && silent.is_met("nothing-missing", &[]));
+        assert!(!silent.is_met("explained", &[said("stribeck", &[2])]));
+    }
+
+    #[test]
+    fn the_arm_as_a_whole_has_no_joint() {
+        let key = key("explained", r#"[{"kind": "payload", "joint": null}]"#, "[]");
+        assert!(key.is_met("explained", &[said("payload", &[7])]));
     }
 }

@@ -6,7 +6,7 @@
 use super::away::LEAST_LEFT;
 use super::curve::{Curve, STIFFNESS, fitted};
 use super::periodic::laps;
-use super::raw::mean_square;
+use super::raw::{above, mean_square};
 use super::search::{Search, State};
 use super::whereabouts::Quantity;
 use crate::identify::away_from_turns;
@@ -126,6 +126,7 @@ impl Search<'_> {
         let calmest = self.raw_residuals(state);
         let raw = &calmest.residuals;
         let beyond = self.beyond_all(raw);
+        let above = above(raw, &beyond, &state.residuals);
         let periodic = self.periods.iter().copied().collect::<Option<Vec<f64>>>();
         let of_joint = |joint: usize| {
             let changing = periodic.as_ref().and_then(|periods| {
@@ -146,9 +147,8 @@ impl Search<'_> {
                     ..Floor::of_parts(&parts, FloorFrom::Periods)
                 };
             }
-            let filtered = mean_square(&state.residuals[joint]);
-            let samples = raw.iter().flat_map(|log| &log[joint]);
-            let above = (mean_square(samples) + beyond[joint] - filtered).max(0.0);
+            // What is above the band of rows is noise to any model: the lesser of two is known of both.
+            let above = above[joint].min(self.declared_above[joint]);
             let parts = self.left_by_curves(&state.residuals[joint], joint);
             let parts: Vec<f64> = parts.into_iter().map(|part| part + above).collect();
             Floor::of_parts(&parts, FloorFrom::Curves)

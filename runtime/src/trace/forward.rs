@@ -16,6 +16,7 @@ use super::calm;
 use super::conclude::{changed, verdict};
 use super::folds;
 use super::grid::Grid;
+use super::raw::above;
 use super::search::{Accepted, MOST_EFFECTS, Search, State};
 use super::stage::Stage;
 use super::structure::Structure;
@@ -147,6 +148,7 @@ impl<'a> Trace<'a> {
             position_noise,
             calm,
             calm_noise,
+            declared_above: Vec::new(),
             identify,
             shapes,
             shared_hz: bands.shared_hz,
@@ -165,6 +167,8 @@ impl<'a> Trace<'a> {
             looks: Looks::default(),
         };
         search.update_rigid_torque(&state);
+        let raw = search.raw_residuals(&state).residuals;
+        search.declared_above = above(&raw, &search.beyond_all(&raw), &state.residuals);
         let before = search.structure(&state).to_vec();
 
         progress(&Stage::whole("forming candidate columns"));

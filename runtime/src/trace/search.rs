@@ -66,6 +66,8 @@ pub(super) struct Search<'s> {
     /// What noise of the positions makes of each joint's torque by the declared model: of the motion of rows, and of the calm one.
     pub(super) position_noise: Vec<TorqueOfNoise>,
     pub(super) calm_noise: Vec<TorqueOfNoise>,
+    /// Mean square of each joint's raw residual beyond that of its rows, by the declared model.
+    pub(super) declared_above: Vec<f64>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
     /// Independent tests that all candidates are worth, found in the first round.
