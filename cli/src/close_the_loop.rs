@@ -231,7 +231,7 @@ fn trace(
         };
         let mut trace = Trace::new(candidates);
         if let Some(found) = &found {
-            trace = trace.since(found.before.clone());
+            trace = trace.since(found);
         }
         let mut rounds = Rounds::new(MOST_EFFECTS);
         let verdict = trace.run(&arm, &logs, &mut |stage| {

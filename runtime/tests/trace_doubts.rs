@@ -7,7 +7,7 @@ use laws::{Law, names};
 use plant::{Pendulums, Plant, column};
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
 use robot_model::motion::{Kinematics, Motion};
-use robot_model::trace::{Outcome, Refusal, Trace};
+use robot_model::trace::{MOST_EFFECTS, Outcome, Refusal, Trace, Verdict};
 
 /// Two columns that are nearly one: their sum is told, neither of their parameters is.
 struct Traded([Unknown; 2]);
@@ -133,4 +133,33 @@ fn two_curves_of_one_position_are_terms_of_a_series() {
     found.sort_unstable();
     assert_eq!(found, [("ripple", 1), ("spring", 1)], "{ripple:#?}");
     assert!(ripple.series.is_empty());
+}
+
+/// A trace that goes on from one in which an effect changed the arm has so many fewer to name.
+#[test]
+fn effects_of_an_earlier_trace_count_among_the_most() {
+    let drag = |joint: usize| {
+        Law::new("quadratic-viscous", joint, true, None, |_, v, _| {
+            v * v.abs()
+        })
+    };
+    let laws = [drag(0), drag(1)];
+    let plant = Plant {
+        extra: |joint, _, v| 0.6 * v[joint] * v[joint].abs(),
+        ..Plant::default()
+    };
+    let logs = [plant.log()];
+    let trace = || Trace::new(laws.iter().map(|law| law as &dyn Candidate).collect());
+    let run = |trace: Trace| {
+        trace
+            .run(&Pendulums::new(), &logs, &mut |_| ())
+            .expect("the log is sound")
+    };
+    let mut earlier = run(Trace::new(vec![&laws[0]]));
+    let found = |verdict: &Verdict| verdict.findings.len() + verdict.leads.len();
+    let one = earlier.findings.first().or(earlier.leads.first());
+    let one = one.expect("drag of the first joint").clone();
+    assert_eq!(found(&run(trace())), 2);
+    earlier.findings = vec![one; MOST_EFFECTS - 1];
+    assert_eq!(found(&run(trace().since(&earlier))), 1);
 }

@@ -37,20 +37,48 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
     out + &experiments(spec, text, closed)
 }
 
+/// Why no motion is designed that tells two effects apart.
+#[derive(Clone, Copy)]
+enum Without {
+    /// One of them is no torque of the motion alone.
+    Motion,
+    /// One of them has a parameter without a column of its own.
+    Column,
+}
+
+impl Without {
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Motion => "one of them follows more than the motion, or changes the arm itself",
+            Self::Column => "a parameter of one of them is part of the other, or of the arm",
+        }
+    }
+}
+
 /// A line for every alternative that some motion may tell from what is named: those that the logs tell apart by something first, since no
-/// motion may tell the others.
+/// motion may tell the others. Then one for every other alternative, with the reason.
 fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     let alternatives = &closed.verdict.alternatives;
     let is_same = |rival: &&Alternative| rival.worse_percent.abs() < SAME_PERCENT;
     let apart = alternatives.iter().filter(|rival| !is_same(rival));
     let by_hope = apart.chain(alternatives.iter().filter(is_same));
-    let pairs = by_hope.filter_map(|rival| {
+    let mut pairs: Vec<(&Alternative, [String; 2])> = Vec::new();
+    let mut others = String::new();
+    for rival in by_hope {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
-        let both = rivals(closed, finding, place, rival)?;
-        have_own_columns(spec, text, &both[0], &both[1]).then_some((rival, both))
-    });
-    let pairs: Vec<(&Alternative, [String; 2])> = pairs.take(MOST_MOTIONS).collect();
+        let without = match rivals(closed, finding, place, rival) {
+            None => Without::Motion,
+            Some(_) if pairs.len() == MOST_MOTIONS => continue,
+            Some(both) if have_own_columns(spec, text, &both[0], &both[1]) => {
+                pairs.push((rival, both));
+                continue;
+            }
+            Some(_) => Without::Column,
+        };
+        let other = on_joints(closed, &rival.kind, &rival.joints);
+        others.push_str(&no_motion(&finding.kind, &other, without));
+    }
     let joints = &closed.before.arm.compiled().model.joints;
     let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
     let first = unbound.map(|joint| {
@@ -67,7 +95,16 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
         both,
     });
     let is_one = alternatives.len() == 1;
-    commands(spec, &first, is_one, &pairs.collect::<Vec<_>>())
+    commands(spec, &first, is_one, &pairs.collect::<Vec<_>>()) + &others
+}
+
+/// The line of an alternative for which no motion is designed.
+fn no_motion(named: &str, rival: &str, without: Without) -> String {
+    format!(
+        "  no motion is designed that tells {named} from {rival}: {}; declare each in turn, and compare their errors on a log of another \
+         motion (`robot-model identify --validate`)\n",
+        without.words()
+    )
 }
 
 /// What is named and what may be instead, in words and as `excite` takes them.
@@ -183,7 +220,7 @@ fn joints(closed: &Loop, joints: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pair, commands};
+    use super::{Pair, Without, commands, no_motion};
 
     #[test]
     fn each_alternative_has_the_command_of_a_motion() {
@@ -211,5 +248,21 @@ mod tests {
             one.contains("the motion that tells them apart best"),
             "{one}"
         );
+    }
+
+    #[test]
+    fn an_alternative_without_a_motion_has_the_reason() {
+        let told = no_motion(
+            "joint-spring",
+            "gravity-compensation-spring on hip",
+            Without::Column,
+        );
+        assert!(
+            told.starts_with(
+                "  no motion is designed that tells joint-spring from gravity-compensation-spring on hip: a parameter of one of them"
+            ),
+            "{told}"
+        );
+        assert_ne!(Without::Motion.words(), Without::Column.words());
     }
 }

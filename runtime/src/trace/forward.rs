@@ -25,8 +25,17 @@ use super::verdict::{Tried, Verdict};
 /// A trace: candidates against the residual of an arm's declared model.
 pub struct Trace<'a> {
     candidates: Vec<&'a dyn Candidate>,
-    since: Option<Vec<Structure>>,
+    since: Option<Earlier>,
 }
+
+/// A trace of the same logs that ended with a change of the arm.
+struct Earlier {
+    /// What it had of structure before its first effect.
+    before: Vec<Structure>,
+    /// Effects that it named.
+    named: usize,
+}
+
 impl<'a> Trace<'a> {
     /// A trace with these candidates; those that the spec declares are left out by the caller, those that read a channel
     /// that some log does not have by [`Self::run`].
@@ -49,7 +58,8 @@ impl<'a> Trace<'a> {
         }
     }
 
-    /// Goes on from a trace of the same logs that ended with a change of the arm: that had this structure before its first effect.
+    /// Goes on from a trace of the same logs that ended with a change of the arm: structure is that before its first effect, and its effects
+    /// count among the [most](MOST_EFFECTS) that are looked for.
     ///
     /// # Examples
     /// ```
@@ -59,14 +69,17 @@ impl<'a> Trace<'a> {
     /// let (arm, candidate) = (pendulum(), dry_friction());
     /// // The log that a first trace had before it found anything, and the one that is left to trace.
     /// let run = |trace: Trace<'_>, fc| trace.run(&arm, &[measure(fc)], &mut |_| ());
-    /// let before = run(Trace::new(vec![&candidate]), 0.7)?.before;
-    /// let later = run(Trace::new(vec![&candidate]).since(before.clone()), 0.0)?;
-    /// assert_eq!(later.before, before);
+    /// let first = run(Trace::new(vec![&candidate]), 0.7)?;
+    /// let later = run(Trace::new(vec![&candidate]).since(&first), 0.0)?;
+    /// assert_eq!(later.before, first.before);
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
     #[must_use]
-    pub fn since(mut self, before: Vec<Structure>) -> Self {
-        self.since = Some(before);
+    pub fn since(mut self, earlier: &Verdict) -> Self {
+        self.since = Some(Earlier {
+            before: earlier.before.clone(),
+            named: earlier.findings.len(),
+        });
         self
     }
 
@@ -173,7 +186,9 @@ impl<'a> Trace<'a> {
 
         progress(&Stage::whole("forming candidate columns"));
         let candidates = self.judgeable(logs);
-        let grown = search.grow(state, &candidates, progress)?;
+        let named = self.since.as_ref().map_or(0, |earlier| earlier.named);
+        let most = MOST_EFFECTS.saturating_sub(named);
+        let grown = search.grow(state, &candidates, most, progress)?;
         self.concluded(&mut search, grown, before)
     }
 
@@ -204,9 +219,10 @@ impl<'a> Trace<'a> {
         state = search.prune(state)?;
         state = search.with_small(state, &grids)?;
         let after = search.structure(&state).to_vec();
-        let before = self.since.clone().unwrap_or(before);
+        let earlier = self.since.as_ref();
+        let before = earlier.map_or(before, |earlier| earlier.before.clone());
         let values = search.told(&state);
-        let is_named = self.since.is_some() || state.accepted.iter().any(|effect| !effect.is_small);
+        let is_named = earlier.is_some() || state.accepted.iter().any(|effect| !effect.is_small);
         // Of a quiet arm a model without a finding may leave more than noise all the same.
         let is_beyond = |joint: &usize| !is_named && values.floor[*joint].exceeded().is_some();
         let is_told = |joint: &usize| {
@@ -257,11 +273,12 @@ enum End<'a> {
 }
 
 impl Search<'_> {
-    /// Accepts the best effect that passes, then the next, until none does.
+    /// Accepts the best effect that passes, then the next, until none does or there are so many.
     fn grow<'a>(
         &mut self,
         mut state: State<'a>,
         candidates: &[&'a dyn Candidate],
+        most: usize,
         progress: &mut dyn FnMut(&Stage<'_>),
     ) -> Result<Grown<'a>, IdentifyError> {
         let mut grids = self.grids(&state, candidates, |_| true);
@@ -269,7 +286,7 @@ impl Search<'_> {
         let mut end = End::NothingPasses;
         let mut settled = BTreeSet::new();
         let mut asked_again: Option<AskedAgain> = None;
-        while state.accepted.len() < MOST_EFFECTS {
+        while state.accepted.len() < most {
             let round = state.accepted.len() + 1;
             let words = format!("round {round}: {} candidates", candidates.len());
             let judged = &mut |done| progress(&Stage::part(&words, done));
