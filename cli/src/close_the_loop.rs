@@ -312,3 +312,32 @@ fn of_fault(fault: &DataFault) -> Option<Amendment> {
 fn readable(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::close;
+    use crate::progress::Progress;
+    use crate::trace::cart::{CART, log_with};
+
+    /// A cart that creeps where it turns, below 1.5 mm/s, and that a spring holds of which its spec knows nothing: with the force of the spring
+    /// in what it leaves its turns are not told.
+    #[test]
+    fn how_joints_turn_is_asked_again_of_the_amended_spec() {
+        let spec = CART.replace(
+            "viscous_friction on",
+            "viscous_friction on rail; coulomb_friction on",
+        );
+        let slow = [(0.2, 0.3), (0.05, 0.7), (0.02, 1.3)];
+        let log = log_with(&slow, |q, dq| 30.0 * q + 2.0 * (dq / 1.5e-3).tanh());
+        let logs = std::slice::from_ref(&log);
+        let closed = close("cart.robot", &spec, logs, Some(&log), &Progress::new())
+            .unwrap_or_else(|error| panic!("{error}"));
+        let changed = closed.changed.as_ref();
+        let changed = changed.unwrap_or_else(|| panic!("{:?}", closed.verdict));
+        let (before, after) = (closed.before.turn_speeds[0], changed.turn_speeds[0]);
+        assert!((after - 1.5e-3).abs() < 2e-4, "{after} m/s");
+        assert!((before - 1.5e-3).abs() > 5e-4, "{before} m/s");
+        let unseen = closed.unseen.as_ref().expect("the log to judge on");
+        assert_eq!(unseen.turn_speeds, [after]);
+    }
+}
