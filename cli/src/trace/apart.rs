@@ -27,14 +27,22 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
     for alternative in alternatives {
         writeln!(
             out,
-            "  or {} in place of {}: {:+.1} % error where it was not fitted",
+            "  or {} in place of {}: {:+.1} % error where it was not fitted{}",
             on_joints(closed, &alternative.kind, &alternative.joints),
             closed.verdict.findings[alternative.instead_of].kind,
             alternative.worse_percent,
+            in_folds(alternative.worse_folds),
         )
         .expect(PUT);
     }
     out + &experiments(spec, text, closed)
+}
+
+/// How often it is worse, where the folds are the same.
+fn in_folds(worse: Option<(usize, usize)>) -> String {
+    worse.map_or_else(String::new, |(worse, of)| {
+        format!(", larger in {worse} of {of} folds")
+    })
 }
 
 /// Why no motion is designed that tells two effects apart.

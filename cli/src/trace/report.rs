@@ -139,6 +139,8 @@ struct AlternativeReport<'a> {
     /// Place in `effects`, from 1.
     instead_of: usize,
     worse_percent: f64,
+    /// Folds in which its held-out error is larger than that of what it could stand for, and how many there are.
+    worse_folds: Option<(usize, usize)>,
 }
 
 #[derive(Serialize)]
@@ -347,5 +349,6 @@ fn alternative(alternative: &Alternative, faults: usize) -> AlternativeReport<'_
         joints: Joints::new(&alternative.joints),
         instead_of: faults + alternative.instead_of + 1,
         worse_percent: alternative.worse_percent,
+        worse_folds: alternative.worse_folds,
     }
 }

@@ -58,7 +58,10 @@ pub(super) fn choose<'a>(
         .into_iter()
         .map(|rival| {
             let worse = gate::worse_percent(&rival.raw_power, &chosen.raw_power);
-            Alternative::of(rival.trial.candidate, 0, worse)
+            Alternative {
+                worse_folds: worse_folds(&rival.fold_power, &chosen.fold_power),
+                ..Alternative::of(rival.trial.candidate, 0, worse)
+            }
         })
         .collect();
     Some(Accepted {
@@ -71,6 +74,12 @@ pub(super) fn choose<'a>(
         trial: chosen.trial,
         rivals,
     })
+}
+
+/// In how many folds the error of `one` is larger than that of `other`, and of how many; none where folds are not the same.
+fn worse_folds(one: &[f64], other: &[f64]) -> Option<(usize, usize)> {
+    let larger = one.iter().zip(other).filter(|(one, other)| one > other);
+    (one.len() == other.len()).then(|| (larger.count(), one.len()))
 }
 
 #[cfg(test)]
@@ -149,6 +158,7 @@ mod tests {
             },
             merit: -error.ln(),
             raw_power: vec![error * error],
+            fold_power: vec![error * error; 5],
             refusals: Vec::new(),
             keeps_signs: true,
             changed: None,
@@ -173,6 +183,13 @@ mod tests {
         let (named, rivals) = chosen(&laws, &|_, _| false);
         assert_eq!(named, "short");
         assert_eq!(rivals, ["middling", "long"], "`worse` is by 6 %");
+    }
+
+    #[test]
+    fn folds_tell_how_often_an_alternative_is_worse() {
+        assert_eq!(worse_folds(&[1.1, 0.9, 1.2], &[1.0; 3]), Some((2, 3)));
+        assert_eq!(worse_folds(&[1.0; 3], &[1.0; 3]), Some((0, 3)));
+        assert_eq!(worse_folds(&[1.0; 3], &[1.0; 10]), None);
     }
 
     #[test]

@@ -69,6 +69,8 @@ pub(super) struct Judged<'a> {
     pub(super) merit: f64,
     /// Held-out power on raw samples per joint.
     pub(super) raw_power: Vec<f64>,
+    /// Held-out power of each fold, of all joints, each over that of the model without the candidate.
+    pub(super) fold_power: Vec<f64>,
     /// Why it may not be named.
     pub(super) refusals: Vec<Refusal>,
     /// Whether no parameter that must not be negative is so by any amount.
@@ -150,6 +152,7 @@ impl<'a> Baseline<'a> {
             evidence,
             merit: compared.merit,
             raw_power: compared.raw_power,
+            fold_power: compared.fold_power,
             refusals: refused(refusals, compared.refusals),
             keeps_signs: negative.is_empty(),
             changed: None,
@@ -194,6 +197,7 @@ impl<'a> Baseline<'a> {
             evidence,
             merit: compared.merit,
             raw_power: compared.raw_power,
+            fold_power: compared.fold_power,
             refusals: refused(
                 [(!chance, Refusal::Chance), (steady, Refusal::Unsteady)],
                 compared.refusals,
@@ -228,15 +232,18 @@ impl<'a> Baseline<'a> {
         let folds = held_out.errors.len();
         // A joint that stands all along, as one with its brake on does, has no error and says nothing.
         let judges = |joint: &usize| self.held_out.mean(*joint) > 0.0;
-        let better = |fold: usize| {
-            let weighted = |errors: &[f64]| {
-                let joints = touched.iter().copied().filter(judges);
-                joints
-                    .map(|j| errors[j] / self.held_out.mean(j))
-                    .sum::<f64>()
-            };
-            weighted(&held_out.errors[fold]) < weighted(&self.held_out.errors[fold])
+        let weighted = |errors: &[f64], joints: &[usize]| {
+            let joints = joints.iter().copied().filter(judges);
+            joints
+                .map(|j| errors[j] / self.held_out.mean(j))
+                .sum::<f64>()
         };
+        let better = |fold: usize| {
+            let [with, without] = [held_out, &self.held_out].map(|of| &of.errors[fold]);
+            weighted(with, touched) < weighted(without, touched)
+        };
+        let all: Vec<usize> = (0..dof).collect();
+        let fold_power = held_out.errors.iter().map(|errors| weighted(errors, &all));
         let improved = (0..folds).filter(|fold| better(*fold)).count();
         let raw_percent: Vec<f64> = (0..dof)
             .map(|j| percent(raw_power[j], raw_before[j]))
@@ -263,6 +270,7 @@ impl<'a> Baseline<'a> {
             },
             merit,
             raw_power,
+            fold_power: fold_power.collect(),
         }
     }
 }
@@ -276,6 +284,7 @@ struct Compared {
     evidence: Evidence,
     merit: f64,
     raw_power: Vec<f64>,
+    fold_power: Vec<f64>,
     /// Not better in nearly all folds, or not by an amount that matters.
     refusals: Vec<Refusal>,
 }

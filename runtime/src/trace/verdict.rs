@@ -90,6 +90,8 @@ pub struct Alternative {
     pub instead_of: usize,
     /// Held-out error on raw samples relative to the finding's, percent; positive: worse.
     pub worse_percent: f64,
+    /// In how many folds its held-out error is larger than the finding's, and of how many; none where both were not judged on the same ones.
+    pub worse_folds: Option<(usize, usize)>,
 }
 
 impl Alternative {
@@ -100,7 +102,7 @@ impl Alternative {
     /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
     /// use robot_model::trace::Alternative;
     /// let rival = Alternative::of(&pendulum::dry_friction(), 0, 0.4);
-    /// assert_eq!((rival.effect.as_str(), rival.joints), ("coulomb_friction", vec![0]));
+    /// assert_eq!((rival.effect.as_str(), rival.joints, rival.worse_folds), ("coulomb_friction", vec![0], None));
     /// ```
     #[must_use]
     pub fn of(candidate: &dyn Candidate, instead_of: usize, worse_percent: f64) -> Self {
@@ -110,6 +112,7 @@ impl Alternative {
             joints: candidate.joints().to_vec(),
             instead_of,
             worse_percent,
+            worse_folds: None,
         }
     }
 }
