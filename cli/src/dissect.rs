@@ -138,7 +138,7 @@ impl Dissect {
             .find(|share| share.rms.iter().any(|x| !x.is_finite()))
         {
             return Err(Error::Argument(format!(
-                "{}: the torque of `{}` is not finite along it; change the parameters, or give a log of motions that the arm can make",
+                "{}: the torque of `{}` is not finite along the log; change the parameters, or give a log of a motion that the arm can make",
                 log.source, share.name
             )));
         }

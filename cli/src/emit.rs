@@ -98,7 +98,7 @@ impl TypedValueParser for LanguageParser {
                     .iter()
                     .any(|name| value.eq_ignore_ascii_case(name))
                 {
-                    let hint = "write `c`: what it emits is for C++ too".into();
+                    let hint = "write `c`: the C code compiles as C++ too".into();
                     error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint]));
                     error.remove(ContextKind::SuggestedValue);
                 }
@@ -116,7 +116,7 @@ impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if let (Language::Rust, Some(name)) = (self.lang, &self.name) {
             return Err(Error::Argument(format!(
-                "`--name` is for `--lang c`; a page of Rust has the names of the module that includes it: `mod {} {{ include!(..) }}`",
+                "`--name` belongs to `--lang c`; Rust code is named by the module that includes it: `mod {} {{ include!(..) }}`",
                 name.as_str()
             )));
         }
@@ -172,7 +172,7 @@ impl Emit {
                         format!("`{}`", file.display())
                     };
                     format!(
-                        "{it} is a file, and `--out` takes a folder; what stands in it is called as the robot is, or the spec"
+                        "{it} is a file, but `--out` takes a folder; files in it are named after the robot or the spec"
                     )
                 }
                 None => error.to_string(),
@@ -214,7 +214,7 @@ fn refuse_what_others_wrote(path: &Path) -> Result<(), Error> {
         Ok(bytes) if !bytes.is_empty() && !bytes.starts_with(emit::MARK.as_bytes()) => {
             Err(Error::Write {
                 path: path.to_owned(),
-                reason: "it is there and was not generated: give another `--out`, or take it away"
+                reason: "it exists and was not generated: give another `--out`, or remove it"
                     .to_owned(),
             })
         }

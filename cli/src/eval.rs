@@ -116,7 +116,7 @@ impl Eval {
             Some((state, form)) => Err(Error::json(
                 &self.states,
                 &format!(
-                    "state {state}: `{form}` is not finite there; write motions that the arm can make, or change the parameters"
+                    "state {state}: `{form}` is not finite there; give states that the arm can reach, or change the parameters"
                 ),
             )),
             None => output::print(&written),

@@ -67,7 +67,7 @@ fn write(folder: &Path, pages: &[(String, String)]) -> Result<(), Error> {
     } else {
         let made = MadeFolder::make(folder).map_err(|error| Error::Write {
             path: folder.to_owned(),
-            reason: format!("the folder cannot be made: {error}"),
+            reason: format!("the folder cannot be created: {error}"),
         })?;
         Some(made)
     };

@@ -79,13 +79,13 @@ impl Merge {
             MethodArgument::Physical => Method::Physical,
         };
         if method != Method::Wls && self.weights != WeightsArgument::Residual {
-            let reason = format!("`--weights` is of `wls`; `{}` has its own", method.name());
+            let reason = format!("`--weights` belongs to `wls`; `{}` has its own", method.name());
             return Err(Error::Argument(reason));
         }
         check_prior(self.prior)?;
         if self.prior.is_some() && method != Method::Ridge {
             return Err(Error::Argument(
-                "`--prior` is of `--method ridge`".to_owned(),
+                "`--prior` belongs to `--method ridge`".to_owned(),
             ));
         }
         let default = Identify::default();
@@ -102,7 +102,7 @@ impl Merge {
         let identify = self.identify()?;
         if self.validate.is_none() && self.log_settings.is_given() {
             return Err(Error::Argument(
-                "`--log-settings` is of the log of `--validate`; factors are read as they are"
+                "`--log-settings` applies to the validation log; give `--validate` too"
                     .to_owned(),
             ));
         }
@@ -192,7 +192,7 @@ impl Merge {
             table(&estimate, &errors)
         };
         output::print(&format!(
-            "{estimate}relative error of what was fitted, in the filtered band: {}\n{table}",
+            "{estimate}relative error of the fitted logs, in the filtered band: {}\n{table}",
             fitted.join(", ")
         ))
     }
@@ -204,7 +204,7 @@ fn twice(path: &Path, factor: &Factor, before: &[(&Path, Factor)]) -> Vec<String
         let common = factor.common_parts(other);
         (common > 0).then(|| {
             format!(
-                "{} has {} of a log that {} has, too: what it says counts twice, and deviations come out too small; give it once",
+                "{} has {} of a log that {} also has: they count twice, and standard deviations are too small; give them once",
                 path.display(),
                 counted(common, "part"),
                 first.display()

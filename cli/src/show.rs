@@ -108,7 +108,7 @@ impl Show {
             (self.what, has_places)
         {
             return Err(Error::Argument(format!(
-                "{}: the robot names no points, so nothing is known of where it is; write `point tip = [x, y, z];`",
+                "{}: the robot has no points, so its position is unknown; write `point tip = [x, y, z];`",
                 compiled.model.source
             )));
         }

@@ -282,7 +282,7 @@ fn values_of(compiled: &Compiled, file: Option<&Path>) -> Result<(Values, String
             Beside::Nothing => {}
             Beside::Same(standard) => values.standard = Some(standard),
             Beside::Other => output::say(&format!(
-                "warning: {source}: its standard parameters do not make its base parameters in this arm, and are left out"
+                "warning: {source}: its standard parameters contradict its base parameters for this arm, and are ignored"
             )),
         }
     }
@@ -342,7 +342,7 @@ fn rank(compiled: &Compiled) -> Check {
     let regrouped = known - base.unidentifiable.len() - base.kept.len();
     if regrouped > 0 {
         findings.push(format!(
-            "{} only in sums with others: `robot-model show --what base-parameters` has them",
+            "{} only in sums with others: see `robot-model show --what base-parameters`",
             counted(regrouped, "parameter")
         ));
     }

@@ -93,7 +93,7 @@ impl Static {
         let arm = self.arm.unwrap_or(1.0);
         if !arm.is_finite() || arm <= 0.0 {
             return Err(Error::Argument(format!(
-                "--arm {arm}: a distance in m that is above zero"
+                "--arm {arm}: write a positive distance in m"
             )));
         }
         let settings = &self.log_settings;
@@ -114,7 +114,7 @@ impl Static {
         let [low, high] = line.gain.interval;
         if low <= 0.0 && high >= 0.0 {
             output::say(
-                "note: the gain is not told from zero: are these the columns of one experiment?",
+                "note: the gain cannot be distinguished from zero: are these the columns of one experiment?",
             );
         }
         output::print(&summary(&line))
@@ -173,7 +173,7 @@ fn summary(line: &StaticGain) -> String {
         hysteresis(line),
         spec(line).map_or_else(
             || {
-                "no gain for the spec, as the slope of no line is one: leave out rows with currents at which the drive is at its limit, and \
+                "no gain for the spec, as the points are not on a line: leave out rows with currents at which the drive saturates, and \
                  calibrate again"
                     .to_owned()
             },
@@ -184,36 +184,36 @@ fn summary(line: &StaticGain) -> String {
 
 fn bend(line: &StaticGain) -> String {
     match &line.curvature {
-        None => "not told: it takes three currents and more points than terms".to_owned(),
+        None => "unknown: needs three currents and more points than terms".to_owned(),
         Some(term) if term.is_told() => format!(
-            "NO LINE: a term {}, by chance with p = {:.2e}; is something in it saturated?",
+            "NOT LINEAR: a term {}, p = {:.2e} by chance; does the drive saturate?",
             measured(&term.value, "N m/A^2"),
             term.p
         ),
-        Some(term) => format!("none is told, p = {:.2}", term.p),
+        Some(term) => format!("not significant, p = {:.2}", term.p),
     }
 }
 
 fn hysteresis(line: &StaticGain) -> String {
     let Some(found) = &line.hysteresis else {
-        return "not told: it takes currents that rise and fall, in the order of the rows"
+        return "unknown: needs currents that rise and fall, in the order of the rows"
             .to_owned();
     };
     let term = &found.difference;
     let of = format!("{} rising and {} falling", found.rising, found.falling);
     if !term.is_told() {
-        return format!("none is told of {of}, p = {:.2}", term.p);
+        return format!("not significant for {of}, p = {:.2}", term.p);
     }
     let what = if found.friction > 0.0 {
         let friction = significant(found.friction, 3);
         format!("half of it, {friction} N m, is friction")
     } else {
-        "friction has the other sign: are the rows in the order in which they were measured?"
+        "friction would have the opposite sign: are the rows in the order of measurement?"
             .to_owned()
     };
     format!(
         "falling minus rising {}, of {of}, p = {:.2e}: {what}\n\
-         gain        {}, beside a constant for each way",
+         gain        {}, with a constant for each direction",
         measured(&term.value, "N m"),
         term.p,
         measured(&found.gain, "N m/A"),

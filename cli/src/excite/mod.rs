@@ -178,13 +178,13 @@ impl Excite {
         let is_long = self.period.is_finite() && self.rate * self.period > 1e7;
         if self.rate.is_nan() || self.rate <= 0.0 || is_long {
             return Err(Error::Argument(format!(
-                "--rate {}: a rate in Hz, for at most ten million samples",
+                "--rate {}: write a rate in Hz, for at most ten million samples",
                 self.rate
             )));
         }
         if let Some(seconds) = self.budget.filter(|s| !(*s > 0.0 && s.is_finite())) {
             return Err(Error::Argument(format!(
-                "--budget {seconds}: a positive number of seconds"
+                "--budget {seconds}: write a positive number of seconds"
             )));
         }
         let progress = Progress::new();
@@ -200,7 +200,7 @@ impl Excite {
         let found = search(&request, self.budget, started, &progress);
         let design = found.map_err(|error| match &self.room {
             Some(room) => {
-                Error::Argument(format!("{error}; the room is that of {}", room.display()))
+                Error::Argument(format!("{error}; the room is given by {}", room.display()))
             }
             None => error,
         })?;

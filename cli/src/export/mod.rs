@@ -80,7 +80,7 @@ impl Format {
 impl Export {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if self.urdf.is_some() && self.format != Format::Urdf {
-            let reason = "`--urdf` is of `--as urdf`; an MJCF model is made from the spec's frames";
+            let reason = "`--urdf` belongs to `--as urdf`; an MJCF model is made from the spec's frames";
             return Err(Error::Argument(reason.to_owned()));
         }
         if self.rotors == Rotors::InLinks && self.format != Format::Urdf {
@@ -159,7 +159,7 @@ impl Export {
             let link = &model.chain().expect("checked at the start").links[joint].name;
             if !is_body(links[joint].inertial) {
                 told.push(format!(
-                    "link `{link}` with the body that an effect adds to it is none that can be; other programs may refuse it"
+                    "link `{link}` with the body that an effect adds is physically impossible; other programs may refuse it"
                 ));
             }
         }
@@ -167,7 +167,7 @@ impl Export {
         let mut notes = Vec::new();
         if !left_out.is_empty() {
             notes.push(format!(
-                "effects that {} does not say are not written: {}",
+                "effects that {} cannot express are not written: {}",
                 self.format.name(),
                 left_out.join(", ")
             ));
@@ -210,13 +210,14 @@ impl Export {
                 let gravity = model.chain().map(|chain| chain.gravity);
                 if let Some([x, y, z]) = gravity.filter(|gravity| *gravity != ASSUMED_GRAVITY) {
                     notes.push(format!(
-                        "{source}: a URDF does not say gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)"
+                        "{source}: a URDF cannot hold gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)"
                     ));
                 }
                 let made_up = made_up_limits(model);
                 if !made_up.is_empty() {
                     notes.push(format!(
-                        "{source}: a URDF wants limits that the spec does not have; {NO_LIMIT:e} stands for those of torque and velocity and {NO_RANGE} m for ranges, at {}",
+                        "{source}: a URDF requires limits, which the spec lacks at {}; written are {NO_LIMIT:e} for torque and velocity and \
+                         {NO_RANGE} m for ranges",
                         made_up.join(", ")
                     ));
                 }

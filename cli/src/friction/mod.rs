@@ -141,7 +141,7 @@ impl Friction {
         if !left_out.is_empty() {
             let left_out: Vec<&str> = left_out.iter().map(String::as_str).collect();
             progress.note(&format!(
-                "note: without a value for each of its shapes {} left out; give them in the spec",
+                "note: {} ignored, as a shape has no value; give it in the spec",
                 match left_out.len() {
                     1 => format!("the effect {} is", names(&left_out)),
                     _ => format!("the effects {} are", names(&left_out)),
@@ -155,7 +155,7 @@ impl Friction {
                 let missing = columns::rigid(compiled, &known.missing);
                 if !missing.is_empty() {
                     return Err(Error::Argument(format!(
-                        "{}: no value for {}; without `--parameters` the rigid body is fitted beside the curve",
+                        "{}: no value for {}; without `--parameters` the rigid body is fitted together with the curve",
                         path.display(),
                         names(&missing)
                     )));
@@ -184,8 +184,7 @@ fn bristles(
 ) -> Result<Bristles, Error> {
     if law.coulomb.value <= 0.0 {
         return Err(Error::Argument(format!(
-            "the static law has a Coulomb torque of {:.4}, with which no bristles slide; measure the curve at lower speeds, where {} \
-             not enough",
+            "the static law has a Coulomb torque of {:.4}, with which no bristles slide; measure the curve at lower speeds, where {} not enough",
             law.coulomb.value,
             counted(curve.points.len(), "point")
         )));

@@ -148,7 +148,7 @@ struct OfEquations<'a> {
 impl IdentifyArguments {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if self.corner.is_some() && self.form == FormArgument::Acceleration {
-            let reason = "`--corner` is of the filtered form; add `--form filtered`";
+            let reason = "`--corner` belongs to the filtered form; add `--form filtered`";
             return Err(Error::Argument(reason.to_owned()));
         }
         self.check_options()?;
@@ -218,7 +218,7 @@ impl IdentifyArguments {
             .as_ref()
             .map(|log| form.errors(&estimate, log))
             .transpose()?;
-        progress.step("asking whether columns are as the spec says");
+        progress.step("checking that columns agree with the spec");
         let identify = Identify {
             at_turns: estimate.at_turns(),
             ..identify

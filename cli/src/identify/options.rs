@@ -170,11 +170,11 @@ impl IdentifyArguments {
             return self.check_simulation();
         };
         if let Some(option) = self.output_error.given() {
-            return refuse(&format!("`{option}` is of `--method output-error`"));
+            return refuse(&format!("`{option}` belongs to `--method output-error`"));
         }
         if !method.takes_weights() && self.weights != WeightsArgument::Residual {
             return refuse(&format!(
-                "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
+                "`--weights` belongs to `wls`, `robust`, `tls` and `iv`; `{}` has its own",
                 method.name()
             ));
         }
@@ -186,7 +186,7 @@ impl IdentifyArguments {
             ];
             if let Some((option, _)) = asked.into_iter().find(|(_, is_given)| *is_given) {
                 return refuse(&format!(
-                    "`{option}` is of `--method ls`, `wls` and `robust`, and wants the logs themselves, not a factor"
+                    "`{option}` belongs to `--method ls`, `wls` and `robust`, and needs the logs themselves, not a factor"
                 ));
             }
         }
@@ -204,20 +204,20 @@ impl IdentifyArguments {
             let single = [Method::Robust, Method::Total, Method::Instrumental];
             if single.contains(&method) {
                 return refuse(
-                    "`--factor` is of `--method ls`, `wls`, `ridge` and `physical`: others ask for single samples",
+                    "`--factor` works with `--method ls`, `wls`, `ridge` and `physical`: the others need single samples",
                 );
             }
         }
         if self.prior.is_some() && method != Method::Ridge {
-            return refuse("`--prior` is of `--method ridge`");
+            return refuse("`--prior` belongs to `--method ridge`");
         }
         if !self.instruments.is_empty() && method != Method::Instrumental {
-            return refuse("`--instruments` are of `--method iv`");
+            return refuse("`--instruments` belongs to `--method iv`");
         }
         if method == Method::Instrumental && self.instruments.len() != self.logs.len() {
             return refuse(&format!(
-                "`--method iv` wants a motion without noise for each log, `--instruments MOTION ..`: {} for {}; take the wanted \
-                 motion, or the log that `simulate` makes of it with the parameters of `--method wls`",
+                "`--method iv` needs a noise-free motion for each log, `--instruments MOTION ..`: {} for {}; give the commanded motion, or \
+                 the log that `simulate` makes of it with the parameters of `--method wls`",
                 output::counted(self.instruments.len(), "motion"),
                 output::counted(self.logs.len(), "log")
             ));
@@ -244,7 +244,7 @@ impl IdentifyArguments {
         match others.into_iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),
             Some((option, _)) => Err(Error::Argument(format!(
-                "`{option}` is of methods with equations; `output-error` simulates"
+                "`{option}` belongs to methods with equations; `output-error` simulates"
             ))),
         }
     }

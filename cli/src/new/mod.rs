@@ -72,7 +72,7 @@ fn name(text: &str) -> Result<String, String> {
     let is_path = text.contains(['/', '\\']) || text.contains('.');
     if is_path || !text.contains(|c: char| c.is_ascii_alphabetic()) {
         return Err(
-            "write the robot's name, such as `Picker`, and its file behind `-o`".to_owned(),
+            "write the robot's name, such as `Picker`, and its file after `-o`".to_owned(),
         );
     }
     Ok(robot_model_spec::upper_camel(text))
@@ -105,7 +105,7 @@ impl New {
         robot_model_spec::load(&shown, &text)?;
         file.commit(text.as_bytes())?;
         output::print(&format!(
-            "wrote {shown}: put the arm's numbers in, then `robot-model check {shown}`\n"
+            "wrote {shown}: fill in the arm's numbers, then run `robot-model check {shown}`\n"
         ))
     }
 }

@@ -76,7 +76,7 @@ impl Files {
             return Err(refused(
                 path,
                 &format!(
-                    "it is the same file as the output `{output}`; give each a name of its own"
+                    "it is the same file as the output `{output}`; give each its own name"
                 ),
             ));
         }

@@ -27,7 +27,7 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         let from_spec: Vec<&str> = values.from_spec.iter().map(String::as_str).collect();
         if !from_spec.is_empty() {
             output::say(&format!(
-                "note: {source}: no value for {}: the spec's for {}",
+                "note: {source}: no value for {}: the spec's value is used for {}",
                 counted(from_spec.len(), "parameter"),
                 names(&from_spec)
             ));

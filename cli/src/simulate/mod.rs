@@ -159,8 +159,7 @@ impl Simulate {
             && self.controller != ControllerArgument::ComputedTorque
         {
             return Err(Error::Argument(
-                "`--control-parameters` are those of the model of `--controller computed-torque`; \
-                 another controller has none"
+                "`--control-parameters` belongs to `--controller computed-torque`; other controllers have no model"
                     .to_owned(),
             ));
         }
@@ -170,7 +169,7 @@ impl Simulate {
             (has_gains, gains.iter().find(|(_, gain)| gain.is_some()))
         {
             return Err(Error::Argument(format!(
-                "`{option}` is of `--controller pd` and `computed-torque`; nothing else here has gains"
+                "`{option}` belongs to `--controller pd` and `computed-torque`; nothing else has gains"
             )));
         }
 
@@ -180,7 +179,7 @@ impl Simulate {
         if let (true, Some(channel)) = (record::is_bag(&self.out), compiled.model.inputs().first())
         {
             return Err(Error::Argument(format!(
-                "{}: a declared effect reads `{channel}`, for which joint states have no place; write the log as CSV",
+                "{}: a declared effect reads `{channel}`, which joint states cannot hold; write the log as CSV",
                 self.out.display()
             )));
         }

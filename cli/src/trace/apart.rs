@@ -27,7 +27,7 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
     for alternative in alternatives {
         writeln!(
             out,
-            "  or {} in place of {}: {:+.1} % error where it was not fitted",
+            "  or {} instead of {}: {:+.1} % error on folds not fitted",
             on_joints(closed, &alternative.kind, &alternative.joints),
             closed.verdict.findings[alternative.instead_of].kind,
             alternative.worse_percent,
@@ -55,7 +55,7 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
     let first = unbound.map(|joint| {
         format!(
-            ", once limits of `{}` and its like are in the spec (`velocity = ..`)",
+            ", after adding limits of `{}` and the other joints to the spec (`velocity = ..`)",
             joint.name
         )
     });
@@ -84,16 +84,16 @@ fn commands(spec: &str, first: &str, is_one: bool, pairs: &[Pair]) -> String {
     let mut out = String::new();
     for (number, pair) in pairs.iter().enumerate() {
         let tells = if is_one {
-            "tells them apart".to_owned()
+            "separates them".to_owned()
         } else {
-            format!("tells {} from {}", pair.named, pair.rival)
+            format!("separates {} from {}", pair.named, pair.rival)
         };
         let what = if pair.is_same {
             format!(
-                "along these logs they are the same; whether some motion {tells}, and which one"
+                "along these logs they are identical; find out which motion {tells}, if any"
             )
         } else {
-            format!("these logs do not settle it; the motion that {tells} best")
+            format!("these logs cannot decide; design the motion that best {tells}")
         };
         let command = experiment(spec, pair.both, number);
         writeln!(out, "  {what}{first}: {command}").expect(PUT);

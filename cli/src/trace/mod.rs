@@ -74,7 +74,7 @@ impl TraceArguments {
         let text = fs::read_to_string(path).unwrap_or_default();
         match robot_of(&text) {
             Some(other) if other != robot => Err(Error::Argument(format!(
-                "cannot write `{}`: what is there is the spec of robot `{other}`, and would be lost; give another name, or take that file away first",
+                "cannot write `{}`: the existing file is the spec of robot `{other}`, and would be lost; give another name, or remove that file first",
                 path.display()
             ))),
             _ => Ok(()),

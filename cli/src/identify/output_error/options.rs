@@ -89,7 +89,7 @@ impl Options {
         let mut given = of_log.into_iter().filter(|(_, is_given)| *is_given);
         match (&self.controller, given.next()) {
             (Some(_), Some((option, _))) => Err(Error::Argument(format!(
-                "`{option}` is of arms that the logged torque drives; with `--controller` logs are simulated whole, and its torque is held"
+                "`{option}` needs an arm driven by the logged torque; with `--controller` whole logs are simulated, and its torque is held"
             ))),
             _ => Ok(()),
         }
