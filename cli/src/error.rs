@@ -48,7 +48,7 @@ pub enum Error {
     Json {
         /// The file.
         path: PathBuf,
-        /// Line and column, where it is no JSON at all.
+        /// Line and column, where it is not JSON at all.
         line: Option<(usize, usize)>,
         /// What is wrong with it, with the part that is at fault.
         reason: String,

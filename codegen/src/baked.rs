@@ -76,13 +76,13 @@ impl fmt::Display for BakeError {
                 "{found} numbers for {wanted} {what}; give one for each, in their order"
             ),
             Self::NotFinite { name, value } => {
-                write!(f, "`{name}` is {value}; it has to be a finite number")
+                write!(f, "`{name}` is {value}; it must be a finite number")
             }
             Self::Shape {
                 name,
                 value,
                 wanted,
-            } => write!(f, "`{name}` is {value}; it has to be {wanted}"),
+            } => write!(f, "`{name}` is {value}; it must be {wanted}"),
         }
     }
 }

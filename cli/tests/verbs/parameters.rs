@@ -48,7 +48,7 @@ fn eval_takes_standard_and_base_parameters() {
     );
     assert!(
         folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
-            "error: parameters.json:1:14: it is no JSON: trailing comma; repair it here"
+            "error: parameters.json:1:14: it is not JSON: trailing comma; repair it here"
         )
     );
 }
@@ -159,7 +159,7 @@ fn slips_in_a_parameter_file_are_told() {
     folder.write("parameters.json", large);
     assert_eq!(
         folder.refuse(&CART_WITH_PARAMETERS),
-        "error: parameters.json:1:16: it is no JSON: number out of range; repair it here\n  \
+        "error: parameters.json:1:16: it is not JSON: number out of range; repair it here\n  \
            |\n1 | {\"cart.m\": 1e999, \"rail.viscous_friction.fv\": 5}\n  |                ^\n"
     );
 }

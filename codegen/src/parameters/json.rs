@@ -56,10 +56,10 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         let reason = if notes.room.get().is_none() {
             format!("the values up to here take more than {most} bytes; write fewer into one file")
         } else if said == "recursion limit exceeded" {
-            "lists and objects are nested more than a hundred deep; write fewer into one another"
+            "lists and objects are nested more than a hundred deep; nest them less"
                 .to_owned()
         } else {
-            format!("it is no JSON: {said}; repair it here")
+            format!("it is not JSON: {said}; repair it here")
         };
         Fault {
             line: Some((error.line(), error.column())),
@@ -71,11 +71,11 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         return Ok(value);
     }
     let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
-    let verb = if twice.len() == 1 { "stands" } else { "stand" };
+    let verb = if twice.len() == 1 { "appears" } else { "appear" };
     Err(Fault {
         line: None,
         reason: format!(
-            "{} {verb} there more than once; keep the value that is meant",
+            "{} {verb} more than once; keep the right value",
             names(&twice)
         ),
     })
@@ -255,7 +255,7 @@ mod tests {
             ("[1e999]", (1, 6), "number out of range"),
             ("[NaN]", (1, 2), "expected value"),
         ] {
-            let wanted = format!("it is no JSON: {said}; repair it here");
+            let wanted = format!("it is not JSON: {said}; repair it here");
             assert_eq!(refused(text), (Some(line), wanted), "{text}");
         }
     }

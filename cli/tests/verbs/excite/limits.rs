@@ -103,7 +103,7 @@ fn links_stay_in_their_room() {
             "`apart` is a distance",
         ),
         (r#"{"bals": []}"#, "bals"),
-        ("{", "bad.json:1:1: it is no JSON"),
+        ("{", "bad.json:1:1: it is not JSON"),
         (
             r#"{"balls": [{"link": "lower"}]}"#,
             "`balls[0]`: missing field `radius`; write",

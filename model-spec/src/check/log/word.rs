@@ -64,7 +64,7 @@ pub(super) fn check(column: &LogColumn, wanted: &[Dimension]) -> Result<(), Diag
     let list = suggest::list(known.iter().copied());
     let help = match meant.or_else(nearest) {
         Some(meant) => format!(
-            "write `{meant}`; units that may stand here are {list}, and numbers times these"
+            "write `{meant}`; allowed units are {list}, and numbers times these"
         ),
         None => format!("write one of {list}, or a number times one of these"),
     };
