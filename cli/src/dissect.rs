@@ -24,8 +24,7 @@ use crate::spec::{compile_instantaneous, read_log};
 /// What is cut at both ends of a log, s: filters see one side only there.
 const BORDER_S: f64 = 1.0;
 
-/// Shares of inertia, Coriolis and centrifugal torque, gravity and each effect in the torques along a log, and what is left
-/// of the measured ones: root mean squares per joint.
+/// Split the torques along a log into inertia, Coriolis and centrifugal torque, gravity, each effect and the residual: root mean squares per joint.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model dissect arm.robot monday.csv --parameters fit.json")]

@@ -29,17 +29,16 @@ pub(crate) struct Emit {
     /// Language of the code.
     #[arg(long, ignore_case = true, value_parser = LanguageParser)]
     lang: Language,
-    /// Folder to write to, made where it is missing. A Rust file is called as the spec is, C files as the robot is or `--name` says.
+    /// Folder to write to, created if missing. A Rust file is named after the spec, C files after the robot or `--name`.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// C only: what its files are called and its names start with, in place of the robot's name. Arms of one program have a name
-    /// each.
+    /// C only: name of the files and prefix of C names, instead of the robot's name. Arms in one program need different names.
     #[arg(long, value_parser = prefix)]
     name: Option<Prefix>,
-    /// Which functions.
+    /// Functions to write.
     #[arg(long, value_enum, default_value_t)]
     functions: Functions,
-    /// Values by name, or what `identify --json` writes: numbers in the equations, in place of arguments.
+    /// Values by name, or what `identify --json` writes: numbers in the equations instead of arguments.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
 }
@@ -66,7 +65,7 @@ impl From<Functions> for Extent {
 enum Language {
     /// Rust without `std`, for `include!`; needs the crate `robot-model`.
     Rust,
-    /// C99, a header and a source, which need nothing but libm; for C++ too.
+    /// C99, a header and a source that need only libm; also for C++.
     C,
 }
 

@@ -19,8 +19,7 @@ pub(crate) const NAME: &str = "robot-model.toml";
 /// The option of all verbs that read logs.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct LogSettings {
-    /// Columns and units of logs, TOML, channel by channel in place of those of the spec's `log`. Without it each log has those of the
-    /// `robot-model.toml` in its folder, where there is one.
+    /// Columns and units of logs, TOML; each channel overrides that of the spec's `log`. Default: the `robot-model.toml` in the log's folder, if any.
     #[arg(long = "log-settings", value_name = "FILE.toml")]
     file: Option<PathBuf>,
     /// Files as they were read first, and told.
@@ -100,10 +99,9 @@ fn settings(path: &Path, model: &Model, progress: &Progress) -> Result<LogColumn
     let said = found.said.iter().map(|channel| format!("`{channel}`"));
     let said: Vec<String> = said.collect();
     let over = match model.log.line {
-        Some(line) if found.said.iter().any(|own| of_spec.contains(&own.as_str())) => format!(
-            ", instead of the spec's `log` ({}:{line})",
-            model.source
-        ),
+        Some(line) if found.said.iter().any(|own| of_spec.contains(&own.as_str())) => {
+            format!(", instead of the spec's `log` ({}:{line})", model.source)
+        }
         _ => String::new(),
     };
     if said.is_empty() {

@@ -10,13 +10,13 @@ use crate::interrupt::MadeFolder;
 use crate::output::{Files, counted};
 use crate::{CommandLine, Error, output};
 
-/// Print the manual's page of the program, or write the pages of all verbs.
+/// Print the manual page of the program, or write the pages of all verbs.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model man > robot-model.1
   robot-model man --out ~/.local/share/man/man1")]
 pub(crate) struct Man {
-    /// Folder to write `robot-model.1`, `robot-model-identify.1` and the others to; made where it is missing.
+    /// Folder to write `robot-model.1`, `robot-model-identify.1` and the others to; created if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

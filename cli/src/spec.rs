@@ -96,7 +96,10 @@ fn text_of(path: &Path, bytes: Vec<u8>, most: usize) -> Result<String, Error> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let sound = error.utf8_error().valid_up_to();
-        let line = String::from_utf8_lossy(&error.as_bytes()[..sound]).matches('\n').count() + 1;
+        let line = String::from_utf8_lossy(&error.as_bytes()[..sound])
+            .matches('\n')
+            .count()
+            + 1;
         Error::Read {
             path: path.to_owned(),
             reason: format!(

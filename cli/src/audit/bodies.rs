@@ -37,7 +37,8 @@ pub(super) fn check(
     let chain = compiled.model.chain()?;
     let count = counted(chain.links.len(), "link");
     let Some(standard) = &values.standard else {
-        let scope = format!("{count}, by base parameters: whether physically possible links have them");
+        let scope =
+            format!("{count}, by base parameters: whether physically possible links have them");
         let widths = Widths::new(compiled, &values.beta, deviations);
         return Some(of_base(compiled, &values.beta, &widths, scope));
     };
@@ -151,7 +152,10 @@ fn judged(scope: String, found: Option<(f64, Vec<Moved>)>) -> Check {
     let is_failed = |moved: &Moved| moved.widths > wider * most(moved);
     if missed.iter().any(is_failed) {
         missed.retain(is_failed);
-        let mut findings = listed(&missed, "not physically possible; the nearest possible arm has ");
+        let mut findings = listed(
+            &missed,
+            "not physically possible; the nearest possible arm has ",
+        );
         let way_out = "`identify --method physical` finds the possible arm that fits the logs best";
         findings.push((way_out.to_owned(), Vec::new()));
         return Check::new("bodies", scope, findings);

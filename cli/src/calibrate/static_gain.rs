@@ -16,10 +16,10 @@ use super::table::Table;
 use super::words::{measured, rounded};
 use crate::output::significant;
 
-/// The gain from current to torque, from a blocked arm at a sequence of currents.
+/// Identify the gain from current to torque, from a blocked arm at a sequence of currents.
 ///
-/// The arm is held level, and the torque, or the force at a known distance from the joint, is read at each current. Rows stand in the
-/// order in which they were measured: where currents rise and fall, the difference of both ways is the friction of the gear, twice.
+/// The arm is held level, and the torque, or the force at a known distance from the joint, is measured at each current. Rows are in the
+/// order of measurement: if currents rise and fall, the difference of both directions is twice the gear friction.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model calibrate static blocked.csv --current i --torque tau
@@ -33,7 +33,7 @@ pub(crate) struct Static {
     /// The column of torques, N m.
     #[arg(long, value_name = "COLUMN", required_unless_present = "force")]
     torque: Option<String>,
-    /// The column of forces across the arm, N, in place of torques.
+    /// The column of forces perpendicular to the arm, N, instead of torques.
     #[arg(
         long,
         value_name = "COLUMN",
@@ -41,7 +41,7 @@ pub(crate) struct Static {
         conflicts_with = "torque"
     )]
     force: Option<String>,
-    /// How far from the joint's axis the forces were measured, m.
+    /// Distance of the force sensor from the joint's axis, m.
     #[arg(
         long,
         value_name = "M",
@@ -55,7 +55,7 @@ pub(crate) struct Static {
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// The points, the line, and the band that holds the line with 95 %.
+    /// Draw the points, the line and its 95 % confidence band.
     #[arg(long, value_name = "FILE.svg")]
     figure: Option<PathBuf>,
 }
@@ -196,8 +196,7 @@ fn bend(line: &StaticGain) -> String {
 
 fn hysteresis(line: &StaticGain) -> String {
     let Some(found) = &line.hysteresis else {
-        return "unknown: needs currents that rise and fall, in the order of the rows"
-            .to_owned();
+        return "unknown: needs currents that rise and fall, in the order of the rows".to_owned();
     };
     let term = &found.difference;
     let of = format!("{} rising and {} falling", found.rising, found.falling);

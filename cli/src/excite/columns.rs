@@ -35,7 +35,9 @@ pub(super) fn basis(
     }
     let matrix = DMatrix::from_fn(count, count, |row, column| {
         let DesignColumn::Parameter(base) = columns.columns[row] else {
-            unreachable!("`--columns` does not work with `--separate`, whose effects have columns of shapes");
+            unreachable!(
+                "`--columns` does not work with `--separate`, whose effects have columns of shapes"
+            );
         };
         let mut combination = compiled.base.combinations[base].iter();
         let part = combination.find(|part| part.0 == chosen[column]);

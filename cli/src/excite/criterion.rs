@@ -14,7 +14,7 @@ pub(super) enum CriterionArgument {
     Condition,
     /// Its smallest singular value.
     EOptimal,
-    /// The lengths of its columns alone: does not see columns that look alike.
+    /// Hadamard's bound from the lengths of its columns; ignores dependence between columns.
     Hadamard,
 }
 

@@ -40,9 +40,7 @@ impl Excite {
             ));
         }
         if compiled.check_instantaneous().is_err() || compiled.delay().is_some() {
-            progress.note(
-                "note: the design ignores effects that displace links or delay torques",
-            );
+            progress.note("note: the design ignores effects that displace links or delay torques");
         }
         let nominal = Nominal {
             beta: known.beta.clone(),

@@ -63,9 +63,7 @@ pub(super) fn read(
     let file: File = json::typed(path, value, FORM)?;
     let refused = |reason: String| Error::json(path, &reason);
     let Some(chain) = compiled.model.chain() else {
-        return Err(refused(
-            "the robot has no links to put balls on".to_owned(),
-        ));
+        return Err(refused("the robot has no links to put balls on".to_owned()));
     };
     let links: Vec<&str> = chain.links.iter().map(|link| link.name.as_str()).collect();
     let mut balls = Vec::new();

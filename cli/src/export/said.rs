@@ -178,7 +178,12 @@ pub(super) fn not_alone(compiled: &Compiled, remarks: &[String]) -> Option<Strin
     ];
     let of = of.iter().filter(|(links, _)| !links.is_empty());
     let of: Vec<String> = of
-        .map(|(links, which)| format!("for {} one of many sets with the same dynamics, {which}", list(links)))
+        .map(|(links, which)| {
+            format!(
+                "for {} one of many sets with the same dynamics, {which}",
+                list(links)
+            )
+        })
         .collect();
     (!of.is_empty()).then(|| {
         format!(

@@ -89,7 +89,8 @@ impl Found<'_> {
         }
         if curve.has_constant {
             doubts.push(
-                "a constant torque of the rigid body is included in the points and in the offset".to_owned(),
+                "a constant torque of the rigid body is included in the points and in the offset"
+                    .to_owned(),
             );
         }
         if let Some(bristles) = self.bristles {
@@ -237,7 +238,8 @@ impl Found<'_> {
                 format!("no significant fall with speed ({p:.4}): F_s and v_s are not identified")
             }
             (_, None) => {
-                "too few speeds for a fall, which needs five: F_s and v_s are not identified".to_owned()
+                "too few speeds for a fall, which needs five: F_s and v_s are not identified"
+                    .to_owned()
             }
         };
         format!("{fall}; {distance}")

@@ -114,10 +114,7 @@ fn question(asked: &Asked, log: &Log, far: &[Far]) -> Option<String> {
     let [other, in_spec] = asked.other;
     let are_counts = far.iter().all(|far| is_counted(&log.q[far.joint]));
     let (other, in_spec) = if are_counts {
-        (
-            format!("encoder counts, or whole {other}"),
-            asked.step,
-        )
+        (format!("encoder counts, or whole {other}"), asked.step)
     } else {
         (other.to_owned(), in_spec)
     };

@@ -6,7 +6,10 @@ pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     let delay = estimate.hidden_delay?;
     let (ms, std) = (1e3 * delay.seconds.abs(), 1e3 * delay.std);
     let (late, finds) = if delay.seconds > 0.0 {
-        ("late", "declare `time_delay;` in `effects` to identify a delay; ")
+        (
+            "late",
+            "declare `time_delay;` in `effects` to identify a delay; ",
+        )
     } else {
         ("early", "")
     };

@@ -55,10 +55,7 @@ fn standing(estimate: &Estimate) -> Option<String> {
         1 => "is at rest or reverses nearly all the time, held by dry friction",
         _ => "are at rest or reverse nearly all the time, held by dry friction",
     };
-    Some(format!(
-        "{} {verbs} of an unknown torque",
-        names(&standing)
-    ))
+    Some(format!("{} {verbs} of an unknown torque", names(&standing)))
 }
 
 /// Directions of which all that is seen is noise.

@@ -167,8 +167,8 @@ impl<'a> Evidence<'a> {
                 _ => format!("Largest residual: {percent:.2} % of the torque of `{name}` ({of})."),
             })
         });
-        let elsewhere =
-            (!of_logs.is_empty()).then(|| "Notes on how files were read are under Data.".to_owned());
+        let elsewhere = (!of_logs.is_empty())
+            .then(|| "Notes on how files were read are under Data.".to_owned());
         let sentences = std::iter::once(told).chain(left).chain(elsewhere);
         let sentences: Vec<String> = sentences.collect();
         page.verdict(class, word, &sentences.join(" "));
@@ -178,7 +178,9 @@ impl<'a> Evidence<'a> {
         }
         if let Some(next) = next {
             page.part("Next");
-            page.text("Is the residual noise, or does the spec lack an effect? This command finds out:");
+            page.text(
+                "Is the residual noise, or does the spec lack an effect? This command finds out:",
+            );
             page.preformatted(next);
         }
     }

@@ -203,10 +203,7 @@ pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
         .map(|&k| compiled.standard[k].name.as_str())
         .collect();
     if !silent.is_empty() {
-        page.text(&format!(
-            "No torque depends on: {}.",
-            silent.join(", ")
-        ));
+        page.text(&format!("No torque depends on: {}.", silent.join(", ")));
     }
 }
 

@@ -53,8 +53,7 @@ fn read(path: &Path) -> Result<Table, Error> {
     }
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
-            let reason =
-                format!("column `{name}` appears twice; rename one of them");
+            let reason = format!("column `{name}` appears twice; rename one of them");
             return Err(refused_at(path, 1, &reason));
         }
     }

@@ -89,9 +89,7 @@ fn commands(spec: &str, first: &str, is_one: bool, pairs: &[Pair]) -> String {
             format!("separates {} from {}", pair.named, pair.rival)
         };
         let what = if pair.is_same {
-            format!(
-                "along these logs they are identical; find out which motion {tells}, if any"
-            )
+            format!("along these logs they are identical; find out which motion {tells}, if any")
         } else {
             format!("these logs cannot decide; design the motion that best {tells}")
         };

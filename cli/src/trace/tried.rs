@@ -43,9 +43,8 @@ pub(super) fn tried(closed: &Loop) -> String {
     rows.insert(0, head);
     let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
     let widths = [0, 1, 2, 3, 4].map(width);
-    let mut out = String::from(
-        "\nSignificant candidates, with the largest fall of a joint's error:\n",
-    );
+    let mut out =
+        String::from("\nSignificant candidates, with the largest fall of a joint's error:\n");
     for [round, effect, score, held_out, raw, end] in &rows {
         let [of_round, of_effect, of_score, of_held_out, of_raw] = widths;
         let line = format!(

@@ -46,11 +46,9 @@ fn eval_takes_standard_and_base_parameters() {
         "error: parameters.json:1:46: Cart has no parameter `cart.mass`; is `cart.m` meant?\n  |\n1 | {\"cart.m\": 3, \
          \"rail.viscous_friction.fv\": 5, \"cart.mass\": 3}\n  |                                              ^\n"
     );
-    assert!(
-        folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
-            "error: parameters.json:1:14: it is not JSON: trailing comma; repair it here"
-        )
-    );
+    assert!(folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
+        "error: parameters.json:1:14: it is not JSON: trailing comma; repair it here"
+    ));
 }
 
 /// What stands where JSON should is told for what it is, and a name that is near no other with those that there are.

@@ -96,9 +96,7 @@ impl<'a> Robot<'a> {
             for attribute in named(&input.attrs, name) {
                 errors.mistake(
                     attribute.path().span(),
-                    format!(
-                        "`#[{name}(..)]` belongs on a field: move it to its field"
-                    ),
+                    format!("`#[{name}(..)]` belongs on a field: move it to its field"),
                 );
             }
         }
@@ -140,7 +138,9 @@ impl<'a> RobotField<'a> {
         if let (Some(_), Some(attribute)) = (&joint, named(&field.attrs, "on").next()) {
             errors.mistake(
                 attribute.path().span(),
-                format!("the effects of joint `{name}` act on `{name}`: give `#[on(..)]` its own field"),
+                format!(
+                    "the effects of joint `{name}` act on `{name}`: give `#[on(..)]` its own field"
+                ),
             );
         }
         for attribute in named(&field.attrs, "robot") {

@@ -56,8 +56,7 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         let reason = if notes.room.get().is_none() {
             format!("the values up to here take more than {most} bytes; write fewer into one file")
         } else if said == "recursion limit exceeded" {
-            "lists and objects are nested more than a hundred deep; nest them less"
-                .to_owned()
+            "lists and objects are nested more than a hundred deep; nest them less".to_owned()
         } else {
             format!("it is not JSON: {said}; repair it here")
         };
@@ -71,7 +70,11 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         return Ok(value);
     }
     let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
-    let verb = if twice.len() == 1 { "appears" } else { "appear" };
+    let verb = if twice.len() == 1 {
+        "appears"
+    } else {
+        "appear"
+    };
     Err(Fault {
         line: None,
         reason: format!(

@@ -210,10 +210,12 @@ fn positive(value: &Value, dimension: Dimension) -> Result<f64, Diagnostic> {
     if limit > 0.0 {
         return Ok(limit);
     }
-    Err(
-        Diagnostic::new(value.span(), "a limit must be positive", format!("is {limit}"))
-            .help("write the largest magnitude, or remove the limit"),
+    Err(Diagnostic::new(
+        value.span(),
+        "a limit must be positive",
+        format!("is {limit}"),
     )
+    .help("write the largest magnitude, or remove the limit"))
 }
 
 /// An `actuator_gain`; 1 without a unit where there is none.

@@ -340,7 +340,10 @@ fn binary(op: BinaryOp, left: Quantity, right: Quantity, expr: &Expr) -> Checked
             (_, Some(found)) => {
                 return Err(Diagnostic::new(
                     expr.span,
-                    format!("an exponent must be a plain number, found {}", found.describe()),
+                    format!(
+                        "an exponent must be a plain number, found {}",
+                        found.describe()
+                    ),
                     "the exponent has a unit",
                 )
                 .help("remove the unit from the exponent"));

@@ -73,9 +73,7 @@ pub enum ExciteError {
         expected: usize,
     },
     /// Two effects that are none, or not two.
-    #[error(
-        "two effects need columns of their own, with sizes that are not all zero: {0}"
-    )]
+    #[error("two effects need columns of their own, with sizes that are not all zero: {0}")]
     Rivals(&'static str),
     /// A pose that is none, or beyond the limits.
     #[error("the pose has joint `{joint}` at {position}, which is not within {low} .. {high}")]

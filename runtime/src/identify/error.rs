@@ -75,9 +75,7 @@ pub enum IdentifyError {
         why: String,
     },
     /// Too few draws for an interval.
-    #[error(
-        "{draws} bootstrap draws are too few for a 95 % interval; ask for {least} or more"
-    )]
+    #[error("{draws} bootstrap draws are too few for a 95 % interval; ask for {least} or more")]
     Draws {
         /// Draws that were asked for.
         draws: usize,
@@ -112,9 +110,7 @@ pub enum IdentifyError {
         links: Vec<String>,
     },
     /// A payload without mass.
-    #[error(
-        "a payload of {mass} kg determines no gain; give its weighed mass, above 0"
-    )]
+    #[error("a payload of {mass} kg determines no gain; give its weighed mass, above 0")]
     PayloadMass {
         /// The mass, kg.
         mass: f64,
@@ -182,7 +178,9 @@ pub enum IdentifyError {
     )]
     NoNominal,
     /// A deviation of nominal values that is none.
-    #[error("the standard deviation of nominal values is {prior}: give a share above 0, such as 0.3")]
+    #[error(
+        "the standard deviation of nominal values is {prior}: give a share above 0, such as 0.3"
+    )]
     Prior {
         /// What was given.
         prior: f64,

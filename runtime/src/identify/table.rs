@@ -41,10 +41,7 @@ impl fmt::Display for Estimate {
         if self.held.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.held.iter().map(usize::to_string).collect();
             let counts = a_joint(&counts);
-            writeln!(
-                f,
-                "left out, at long rests held by dry friction: {counts}"
-            )?;
+            writeln!(f, "left out, at long rests held by dry friction: {counts}")?;
         }
         if self.clipped.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.clipped.iter().map(usize::to_string).collect();

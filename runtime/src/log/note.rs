@@ -100,11 +100,9 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::ExtraChannels { names } => write!(f, "extra channels: {}", list(names)),
-            Self::NoNumbers { names } => write!(
-                f,
-                "columns without numbers are ignored: {}",
-                list(names)
-            ),
+            Self::NoNumbers { names } => {
+                write!(f, "columns without numbers are ignored: {}", list(names))
+            }
             Self::Sparse { names } => write!(
                 f,
                 "columns with numbers in only some rows are interpolated: {}",

@@ -73,7 +73,9 @@ mod tests {
         };
         assert!(said(0.02).contains("its value moves positions 50 times less than"));
         for nothing in [0.0, 1e-17] {
-            assert!(said(nothing).contains("moves positions not at all, compared with the same change"));
+            assert!(
+                said(nothing).contains("moves positions not at all, compared with the same change")
+            );
         }
     }
 }

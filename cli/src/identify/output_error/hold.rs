@@ -24,7 +24,11 @@ pub(super) fn doubt(names: &[String], found: &OutputEstimate) -> Option<String> 
         std.is_some_and(|std| (*value - *other).abs() > APART * std)
     });
     let moved = moved.map(|((name, (value, other)), _)| {
-        format!("{name} {} instead of {}", table_value(*other), table_value(*value))
+        format!(
+            "{name} {} instead of {}",
+            table_value(*other),
+            table_value(*value)
+        )
     });
     let moved: Vec<String> = moved.collect();
     let chosen = said(other(rival.hold));

@@ -37,9 +37,7 @@ pub enum OutputErrorError {
         below: f64,
     },
     /// Positions are the same all along.
-    #[error(
-        "no joint moves in these logs, so simulated positions determine nothing: move the arm"
-    )]
+    #[error("no joint moves in these logs, so simulated positions determine nothing: move the arm")]
     Still,
     /// A controller remembers across windows.
     #[error("a controller is simulated along whole logs; remove the window")]

@@ -10,8 +10,7 @@ fn to_text(source_name: &str, byte: u8) -> String {
         0 => "utf16",
         0x80.. => "latin1",
         _ => {
-            return "no text contains such a byte: name the file that has the numbers"
-                .to_owned();
+            return "no text contains such a byte: name the file that has the numbers".to_owned();
         }
     };
     format!(
