@@ -154,7 +154,7 @@ mod tests {
         assert_eq!(better(&[1e-6, 1e-6], &[1e-9, 1e-9]), 0);
         let joints = ["one", "two"].map(str::to_owned);
         let told = said(&["cup"], false, &joints, [&[9.0, 4.0], &[8.9, 2.0]]);
-        let wanted = "these logs fit better with `cup` that the spec has `fixed` left free: there is left of the torque 2.0 % for 4.0 % of `two`;";
+        let wanted = "these logs fit better with `cup` identified instead of `fixed`: residual 2.0 % instead of 4.0 % of the torque of `two`;";
         assert!(told.starts_with(wanted), "{told}");
     }
 

@@ -257,7 +257,7 @@ fn torques<'a>(
     validation: Option<&'a Judged>,
 ) -> Vec<(&'static str, &'a Errors)> {
     let judged = std::iter::once(("fitted", train));
-    let judged = judged.chain(validation.map(|judged| ("unseen", judged)));
+    let judged = judged.chain(validation.map(|judged| ("validation", judged)));
     let torques = judged.filter_map(|(of, judged)| Some((of, judged.torque.as_ref()?)));
     torques.collect()
 }

@@ -81,7 +81,7 @@ impl<'a> Evidence<'a> {
             parameters: identified(estimate),
             combinations: &estimate.combinations,
             errors: errors
-                .chain(unseen.map(|errors| ("unseen", errors)))
+                .chain(unseen.map(|errors| ("validation", errors)))
                 .collect(),
             drawn: None,
             notes: Vec::new(),

@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn what_is_no_number_is_named() {
         assert_eq!(
-            no_number("`a.m` is text, where a number is wanted"),
+            no_number("`a.m` is text, but must be a number"),
             Some("a.m")
         );
         assert_eq!(no_number("`a.m` is null; write its value"), Some("a.m"));

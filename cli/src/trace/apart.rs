@@ -199,15 +199,12 @@ mod tests {
         };
         assert_eq!(
             commands("arm.robot", "", false, &[pair(0), pair(1)]),
-            "  these logs do not settle it; the motion that tells quadratic-viscous from cubic-viscous on elbow best: robot-model excite \
+            "  these logs cannot decide; design the motion that best separates quadratic-viscous from cubic-viscous on elbow: robot-model excite \
              arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow' --out next.csv\n  along these logs they \
-             are the same; whether some motion tells quadratic-viscous from stribeck on elbow, and which one: robot-model excite arm.robot \
+             are identical; find out which motion separates quadratic-viscous from stribeck on elbow, if any: robot-model excite arm.robot \
              --separate 'quadratic_viscous on elbow: c = 0.2' --from 'stribeck on elbow' --out next2.csv\n"
         );
         let one = commands("arm.robot", "", true, &[pair(0)]);
-        assert!(
-            one.contains("the motion that tells them apart best"),
-            "{one}"
-        );
+        assert!(one.contains("the motion that best separates them"), "{one}");
     }
 }

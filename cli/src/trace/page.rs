@@ -123,7 +123,7 @@ fn errors(page: &mut Page, closed: &Loop) {
         Some(after) => vec![(" before", &closed.before), (" after", after)],
         None => vec![("", &closed.before)],
     };
-    let heads = ["fitted", "unseen RMSE", "unseen"].into_iter();
+    let heads = ["fitted", "validation RMSE", "validation"].into_iter();
     let heads = heads.flat_map(|of| stages.iter().map(move |(which, _)| format!("{of}{which}")));
     let heads: Vec<String> = std::iter::once("joint".to_owned())
         .chain(heads)

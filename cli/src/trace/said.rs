@@ -200,7 +200,7 @@ mod tests {
         assert_eq!(
             told([5.0, 30.0, 1.0], [0.5, 0.5, 0.99]).as_deref(),
             Some(
-                "on the log that was not fitted the error of b falls from 30.00 to 0.50 %, that of a from 5.00 to 0.50 % of its torque"
+                "on the validation log the error of b falls from 30.00 to 0.50 %, that of a from 5.00 to 0.50 % of its torque"
             )
         );
         assert_eq!(told([5.0, 3.0, 1.0], [5.0, 2.99, 1.1]), None);

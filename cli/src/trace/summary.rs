@@ -203,7 +203,7 @@ mod tests {
         closed.verdict.alternatives = vec![Alternative::of(rival, 0, 0.4)];
         let told = summary("my arms/cart.robot", &closed, CART);
         assert!(
-            told.contains("or stribeck on rail in place of coulomb-friction: +0.4 % error"),
+            told.contains("or stribeck on rail instead of coulomb-friction: +0.4 % error"),
             "{told}"
         );
         let command = "robot-model excite 'my arms/cart.robot' --separate 'coulomb_friction on rail: fc = 1.9";
@@ -233,7 +233,7 @@ mod tests {
         closed.changed = None;
         let told = summary("cart.robot", &closed, CART);
         assert!(
-            told.contains("pass the gates but do not account for its structure, so none is named\n  coulomb-friction on rail"),
+            told.contains("pass the gates but do not explain its structure, so none is named\n  coulomb-friction on rail"),
             "{told}"
         );
         assert!(!told.contains("the search stops"), "{told}");

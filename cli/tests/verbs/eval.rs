@@ -138,7 +138,7 @@ fn what_is_no_text_is_refused_with_the_way_out() {
     std::fs::write(folder.path("arm.robot"), b"robot A {\n\xff\xfe").expect("a file in the folder");
     assert_eq!(
         folder.refuse(&["check", "arm.robot"]),
-        "error: cannot read `arm.robot`: line 2 is no text in UTF-8; save the file as such, or name the file that has the text\n"
+        "error: cannot read `arm.robot`: line 2 is not UTF-8 text; save the file as UTF-8, or name a text file\n"
     );
 }
 

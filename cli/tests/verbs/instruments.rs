@@ -51,7 +51,7 @@ fn what_noise_drowns_instruments_tell() {
     let wide = ["identify", "arm.robot", "log.csv", "--bands", "60,100,150"];
     let refused = folder.refuse(&[&wide[..], &["--json", "fit.json"]].concat());
     assert!(
-        refused.contains("noise of the positions alone: lower `--bands` leave less of it"),
+        refused.contains("only position noise: lower `--bands` reduce it"),
         "{refused}"
     );
     let (fit, _) = identify(

@@ -239,14 +239,11 @@ mod tests {
     #[test]
     fn keys_that_stand_twice_are_told() {
         let (_, one) = refused(r#"{"a":1,"b":2,"a":1}"#);
-        assert_eq!(
-            one,
-            "`a` stands there more than once; keep the value that is meant"
-        );
+        assert_eq!(one, "`a` appears more than once; keep the right value");
         let (_, several) = refused(r#"{"c":[{"b":1},{"d":{"a":1,"a":2,"a":3}}],"b":2,"b":{}}"#);
         assert_eq!(
             several,
-            "`c[1].d.a`, `b` stand there more than once; keep the value that is meant"
+            "`c[1].d.a`, `b` appear more than once; keep the right value"
         );
     }
 

@@ -166,7 +166,7 @@ impl Estimate {
     /// // What a log without acceleration would leave:
     /// estimate.unexcited = vec!["link.izz".to_owned()];
     /// let error = estimate.separated().unwrap_err();
-    /// assert!(error.to_string().contains("nothing is told of `link.izz`"));
+    /// assert!(error.to_string().contains("the logs say nothing about `link.izz`"));
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
     pub fn separated(&self) -> Result<(), IdentifyError> {

@@ -51,7 +51,7 @@ pub(super) fn read(path: &Path, joints: &[Joint]) -> Result<Law, Error> {
             .is_some_and(|limit| limit.is_nan() || limit <= 0.0)
         {
             return Err(refuse(&format!(
-                "joint {}: `limit` has to be positive",
+                "joint {}: `limit` must be positive",
                 joint.name
             )));
         }

@@ -72,13 +72,13 @@ impl Options {
         let is_positive = |number: f64| number > 0.0;
         if let Some(window) = self.window.filter(|window| !is_positive(*window)) {
             return Err(Error::Argument(format!(
-                "`--window` has to be positive, not {window}"
+                "`--window` must be positive, not {window}"
             )));
         }
         let is_share = |percent: f64| is_positive(percent) && percent.is_finite();
         if let Some(percent) = self.within.filter(|percent| !is_share(*percent)) {
             return Err(Error::Argument(format!(
-                "`--within` has to be a positive number of percent, not {percent}"
+                "`--within` must be a positive number of percent, not {percent}"
             )));
         }
         let of_log = [

@@ -96,11 +96,11 @@ fn links_stay_in_their_room() {
         ),
         (
             r#"{"balls": [{"link": "lower", "radius": 0.1}]}"#,
-            "it keeps nothing",
+            "it limits nothing",
         ),
         (
             r#"{"balls": [{"link": "lower", "radius": 0.1}], "apart": -1}"#,
-            "`apart` is a distance",
+            "`apart` must be a distance",
         ),
         (r#"{"bals": []}"#, "bals"),
         ("{", "bad.json:1:1: it is not JSON"),
