@@ -193,7 +193,7 @@ mod tests {
     fn whole_numbers_are_asked_whether_they_are_counts() {
         let counts = said(1200.0, 400.0, true);
         for said in &counts {
-            assert!(said.contains("is it in counts of an encoder"), "{said}");
+            assert!(said.contains("is it in encoder counts"), "{said}");
         }
         assert!(counts[0].contains("360 deg/4096") && counts.len() == 2);
     }

@@ -264,6 +264,6 @@ mod tests {
         let turned = [(1.1, 0.9), (-0.9, -0.6)];
         assert_eq!(told(&turned, false), None);
         let said = told(&turned, true).expect("a sign");
-        assert!(said.contains("round on `j2`"), "{said}");
+        assert!(said.contains("nominal links on `j2`"), "{said}");
     }
 }

@@ -107,7 +107,12 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
             "signs",
             "`upper.viscous_friction.fv` is -0.00208",
         ),
-        ("upper.dahl.fc", -3.0, "friction", "joint `upper` is driven"),
+        (
+            "upper.dahl.fc",
+            -3.0,
+            "friction",
+            "effects of joint `upper` add energy",
+        ),
         ("lower.izz", -0.3, "inertia", "not positive definite"),
     ] {
         let (_, checks, text) = with(name, value);
@@ -206,7 +211,7 @@ fn what_drifts_couples_or_is_carried_is_looked_at() {
     let drift = [&viscous[..], &[("upper.parameter_drift.fv", -2.0)]].concat();
     fails(
         "friction",
-        "joint `upper` is driven",
+        "effects of joint `upper` add energy",
         "viscous_friction on all; parameter_drift(settle = 50) on upper;",
         &drift,
     );

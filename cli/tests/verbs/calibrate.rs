@@ -70,7 +70,7 @@ fn a_gain_that_saturates_is_no_line() {
     folder.write("bent.csv", &text);
     let columns = ["--current", "i", "--torque", "tau", "--json", "bent.json"];
     let said = folder.succeed(&[&["calibrate", "static", "bent.csv"][..], &columns].concat());
-    assert!(said.contains("NO LINE"), "{said}");
+    assert!(said.contains("NOT LINEAR"), "{said}");
     assert!(said.contains("hysteresis  not told"), "{said}");
     let found = json(&folder.read("bent.json"));
     close(found["curvature"].as_f64().expect("told"), -0.002, 1e-9);
@@ -112,7 +112,7 @@ fn tables_that_are_none_are_refused() {
             "i,force\n1,2\n",
             "no column `tau` for --torque; the header has `i`, `force`",
         ),
-        ("i,tau,i\n1,2,3\n", "column `i` stands there twice"),
+        ("i,tau,i\n1,2,3\n", "column `i` appears twice"),
         ("i;tau\n1;2\n", "separate columns with commas"),
         ("1,2\n2,3\n", "no header"),
         ("\n", "empty"),

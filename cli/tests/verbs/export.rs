@@ -349,5 +349,8 @@ fn what_cannot_be_exported_is_refused() {
          potential = m*g*l*sin(q); }",
     );
     let said = folder.refuse(&["export", "swing.robot", "--as", "mjcf", "-o", "out.xml"]);
-    assert!(said.contains("`Swing` says its energies"), "{said}");
+    assert!(
+        said.contains("`Swing` is defined by its energies"),
+        "{said}"
+    );
 }

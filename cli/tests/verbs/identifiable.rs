@@ -48,7 +48,7 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
     let said = folder.succeed(&[&SIMULATED[..], &options].concat());
     assert!(said.contains("rank 8 of 9,"), "{said}");
     assert!(
-        said.contains("rank 8 of 11 with the spec's own constants: `I1`, `I2`, `m1`, `m2`, `l1`, `c1`, `c2` show in 5 sums"),
+        said.contains("rank 8 of 11 with the spec's own constants: `I1`, `I2`, `m1`, `m2`, `l1`, `c1`, `c2` appear only in 5 sums"),
         "{said}"
     );
     // A length is the ratio of two of the sums; it is that of the spec, with which the arm moved.

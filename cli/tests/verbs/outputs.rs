@@ -346,7 +346,7 @@ fn a_table_takes_the_place_of_what_its_verb_wrote() {
         run.stderr
     };
     for out in ["log.csv", "log.mcap"] {
-        let note = format!("note: `{out}` was there before");
+        let note = format!("note: `{out}` existed");
         assert!(!simulate(out, "5").contains(&note));
         assert!(simulate(out, "10").contains(&note));
         // The same bytes again take nothing away.

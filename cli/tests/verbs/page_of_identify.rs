@@ -147,7 +147,7 @@ fn the_report_of_a_model_that_does_not_fit_says_so() {
     let of_result = place("<h3>What to check</h3>");
     let of_files = place("<summary>How the files were read: ");
     assert!(place("explains almost none of the torque") > of_result);
-    assert!(of_result < of_files && of_files < place("robot-model.toml says which columns"));
+    assert!(of_result < of_files && of_files < place("robot-model.toml sets the columns"));
     assert!(of_files > place("RMSE and MAE: root mean square"));
 }
 

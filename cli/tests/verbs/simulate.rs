@@ -233,7 +233,7 @@ fn a_spring_in_the_transmission_is_simulated_and_identified() {
     let files = ["--trajectory", "wanted.csv", "--out", "apart.csv"];
     let said = folder.refuse(&[&run[..], &files].concat());
     assert!(
-        said.contains("base parameter `cart.mr` is of both"),
+        said.contains("base parameter `cart.mr` sums both"),
         "{said}"
     );
     folder.write("each.json", r#"{"cart.m": 3, "rail.motor_inertia.ia": 1}"#);

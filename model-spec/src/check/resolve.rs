@@ -65,7 +65,7 @@ impl Scope {
                     *value,
                     unit,
                     kind,
-                    "write its value in SI units, without a unit",
+                    "for a quantity write its value in SI units, without a unit",
                 ));
                 None
             }

@@ -92,7 +92,7 @@ fn links_stay_in_their_room() {
         ),
         (
             r#"{"balls": [], "box": {"low": [0, 0, 0], "high": [1, 0, 1]}}"#,
-            "no inside",
+            "the box is empty",
         ),
         (
             r#"{"balls": [{"link": "lower", "radius": 0.1}]}"#,

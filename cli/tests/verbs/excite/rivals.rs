@@ -192,7 +192,7 @@ fn states_of_more_than_the_motion_are_left_out() {
         let files = ["--out", "out.csv", "--budget", "1e-9"];
         let ran = folder.run(&[&run[..], &SMALL, &files].concat());
         assert_eq!(ran.code, Some(0), "{name}: {}", ran.stderr);
-        let note = format!("not designed for `lower.{name}.k`");
+        let note = format!("the design ignores `lower.{name}.k`");
         assert!(ran.stderr.contains(&note), "{name}: {}", ran.stderr);
     }
     // Measured torque of a plain design, below the limit at which the motor saturates.
@@ -202,7 +202,7 @@ fn states_of_more_than_the_motion_are_left_out() {
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert!(
         ran.stderr
-            .contains("not designed for `upper.torque_saturation.share`"),
+            .contains("the design ignores `upper.torque_saturation.share`"),
         "{}",
         ran.stderr
     );
@@ -226,7 +226,10 @@ fn states_that_do_not_settle_are_refused() {
             "cubic_viscous on lower",
         ];
         let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &["--out", "out.csv"]].concat());
-        assert!(said.contains("`lower.winder.z` does not settle"), "{said}");
+        assert!(
+            said.contains("`lower.winder.z` does not become periodic"),
+            "{said}"
+        );
     }
 }
 
@@ -290,7 +293,7 @@ fn rivals_that_are_none_are_told() {
         (
             "quadratic_viscous on lower: k = 1",
             cubic,
-            "has `c`: say what each",
+            "has `c`: give the expected value of each",
         ),
         (cubic, cubic, "give two different effects"),
         (

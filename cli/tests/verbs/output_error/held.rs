@@ -61,8 +61,8 @@ fn an_inertia_that_hangs_on_what_torque_does_between_samples_is_noted() {
         "--torque torque.csv --rate 300 --log-rate 30 --position-noise 2e-3",
     );
     let said = notes(&folder, &[]);
-    let (_, values) = said.split_once(" and there is J ").expect("a note");
-    let [other, own] = [0, 2].map(|k| values.split([' ', ':']).nth(k));
+    let (_, values) = said.split_once(" larger, with J ").expect("a note");
+    let [other, own] = [0, 3].map(|k| values.split([' ', ':']).nth(k));
     let number = |text: Option<&str>| text.and_then(|text| text.parse::<f64>().ok());
     let (other, own) = (
         number(other).expect("a number"),

@@ -57,7 +57,7 @@ fn what_a_simulation_cannot_take_is_told() {
         ),
         (
             &["--method", "output-error", "--form", "filtered"],
-            "`--form filtered` is of methods",
+            "`--form filtered` belongs to methods",
         ),
         (
             &["--method", "output-error"],

@@ -140,8 +140,8 @@ fn a_motor_has_a_share_of_a_sum_that_is_less_than_the_specs_link() {
     let options = ["--method", "output-error", "--start", "fit.json"];
     let run = folder.run(&[&basics[..], &options].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let said = "note: fit.json: springs separate parameters that are one sum there (`a.mxr`, `a.izzr`); the search starts from a share of \
-                the spec's values of `a.izz`, `a.m`, which would leave a motor nothing, and from the remainder of each sum for \
+    let said = "note: fit.json: springs separate parameters that are one sum there (`a.mxr`, `a.izzr`); the search starts from \
+                scaled-down spec values of `a.izz`, `a.m`, as the full ones would leave no motor inertia, and from the remainder of each sum for \
                 `a.motor_inertia.ia`, `a.mx`\n";
     assert!(run.stderr.contains(said), "{}", run.stderr);
     let report = json(&folder.read("both.json"));
