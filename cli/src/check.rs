@@ -11,7 +11,7 @@ use crate::output::counted;
 use crate::spec::compile_to_look_at;
 use crate::{Error, output};
 
-/// Check a spec: every mistake with its source line and what to do, or what the spec describes.
+/// Check a spec: print every mistake with its line and a fix, or a summary of the arm.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model check arm.robot")]

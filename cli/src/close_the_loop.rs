@@ -110,7 +110,7 @@ pub fn close(
             "identifying the declared model, {part} of {PARTS}: {what}"
         ));
     };
-    inside(1, "samples that nothing measured");
+    inside(1, "samples that were not measured");
     let mut mended = data_gate::mend(logs, progress);
     for one in &mut mended {
         one.log = one.log.clone().with_motion_phase(None);
@@ -120,14 +120,14 @@ pub fn close(
     let validate = unseen.as_ref();
     let sound: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
     let declared = compiled(source_name, text)?;
-    inside(2, "how slowly joints turn round");
+    inside(2, "speeds at velocity reversals");
     let speeds = Identify::default().turn_speeds(&declared, &sound)?;
     let sound = Log::all_with_turn_speeds(&sound, &speeds);
     let mut on_time = sound.clone();
     let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
     inside(3, "the fit");
     let estimate = Identify::default().fit(&declared, &sound)?;
-    inside(4, "the band in which raw errors are least");
+    inside(4, "the band with the smallest raw errors");
     let before = Stage::judged(declared, estimate, &sound, turned.as_ref())?;
     inside(5, "faults of the logs");
     let (arm, estimate) = (&before.arm, &before.estimate);

@@ -5,7 +5,7 @@ use clap_complete::Shell;
 
 use crate::{CommandLine, Error, output};
 
-/// Print what a shell needs to complete verbs and options.
+/// Print the completion script of a shell.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model completions bash > ~/.local/share/bash-completion/completions/robot-model

@@ -40,16 +40,16 @@ const MENDED: [(&str, &[&str]); 7] = [
     ("spikes and bursts", &["spikes", "bursts"]),
     ("dropouts and held values", &["dropouts", "held"]),
     (
-        "positions that jump and stay, or begin their turn again",
+        "positions that jump and stay, or wrap around",
         &["slips", "wrapped"],
     ),
     ("torques at a limit", &["clipped"]),
     (
-        "logged velocities against positions: delay, unit, sign",
+        "logged velocities compared with positions: delay, unit, sign",
         &["velocity-late", "velocity-scale"],
     ),
     (
-        "channels that stand still or never change",
+        "channels that are constant",
         &["still", "at-rest", "constant"],
     ),
 ];
@@ -121,7 +121,7 @@ pub(crate) fn checks(
     let late = estimate.delays.iter().map(late);
     let held = estimate.held_torques.iter().map(|held| {
         let channel = held.channel.column(held.joint);
-        format!("{channel} is set at a sample and holds until the next one, which is no delay")
+        format!("{channel} is set at a sample and held until the next one, which is not a delay")
     });
     all.push(Check::new(
         "delays between channels",
@@ -130,7 +130,7 @@ pub(crate) fn checks(
     ));
     let smoothed = faults.iter().filter(|fault| fault.is_smoothed());
     all.push(Check::new(
-        "torques that were filtered and positions that were not",
+        "torques that were filtered while positions were not",
         smoothed.map(|fault| fault.told.clone()).collect(),
         NONE,
     ));
@@ -140,7 +140,7 @@ pub(crate) fn checks(
 fn late(delay: &Delay) -> String {
     let (ms, std) = (1e3 * delay.seconds, 1e3 * delay.std);
     format!(
-        "{} is {:.2} +- {std:.2} ms {}; without that its joint's error is {:.0} % less",
+        "{} is {:.2} +- {std:.2} ms {}; without this delay its joint's error is {:.0} % smaller",
         delay.channel.column(delay.joint),
         ms.abs(),
         if ms > 0.0 { "late" } else { "early" },

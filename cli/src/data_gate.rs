@@ -123,8 +123,8 @@ pub(crate) fn smoothed(
                 "without phase"
             };
             told.push(format!(
-                "{}: torques went through a low-pass of about {hz} Hz {phase}, and positions did not: the same filter on the model's torque \
-                 takes {percent:.0} % off its error; log raw torques, or a wider filter",
+                "{}: torques, but not positions, were low-pass filtered at about {hz} Hz {phase}: the same filter on the model's torque \
+                 reduces its error by {percent:.0} %; log raw torques, or use a wider filter",
                 log.source
             ));
         }
@@ -147,8 +147,8 @@ pub(crate) fn late_position(estimate: &Estimate, progress: &Progress) -> Option<
     let (joint, percent) = (&estimate.joints[found.joint], 100.0 * found.gain);
     if found.gain < LEAST_OF_LATE {
         progress.note(&format!(
-            "note: the position of {joint} looks late by {ms:.2} +- {std:.2} ms, but most of its error stays without that ({percent:.0} % less), \
-             so it is not taken for the cause"
+            "note: the position of {joint} appears late by {ms:.2} +- {std:.2} ms, but correcting that reduces its error by only \
+             {percent:.0} %, so it is not taken for the cause"
         ));
         return None;
     }
@@ -156,8 +156,8 @@ pub(crate) fn late_position(estimate: &Estimate, progress: &Progress) -> Option<
         kind: "time-delay",
         joints: vec![found.joint],
         told: format!(
-            "the position of {joint} is late against all other channels by {ms:.2} +- {std:.2} ms, without which its error is {percent:.0} % less: \
-             move its column in the log by that",
+            "the position of {joint} is late against all other channels by {ms:.2} +- {std:.2} ms; correcting that reduces its error by \
+             {percent:.0} %: shift its column in the log by that time",
         ),
         delay: Some((found.seconds, found.std)),
         is_last: true,

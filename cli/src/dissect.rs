@@ -24,8 +24,7 @@ use crate::spec::{compile_instantaneous, read_log};
 /// What is cut at both ends of a log, s: filters see one side only there.
 const BORDER_S: f64 = 1.0;
 
-/// Shares of inertia, Coriolis and centrifugal torque, gravity and each effect in the torques along a log, and what is left
-/// of the measured ones: root mean squares per joint.
+/// Split the torques along a log into inertia, Coriolis and centrifugal torque, gravity, each effect and the residual: root mean squares per joint.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model dissect arm.robot monday.csv --parameters fit.json")]
@@ -138,7 +137,7 @@ impl Dissect {
             .find(|share| share.rms.iter().any(|x| !x.is_finite()))
         {
             return Err(Error::Argument(format!(
-                "{}: the torque of `{}` is not finite along it; change the parameters, or give a log of motions that the arm can make",
+                "{}: the torque of `{}` is not finite along the log; change the parameters, or give a log of a motion that the arm can make",
                 log.source, share.name
             )));
         }

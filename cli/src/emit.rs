@@ -29,17 +29,16 @@ pub(crate) struct Emit {
     /// Language of the code.
     #[arg(long, ignore_case = true, value_parser = LanguageParser)]
     lang: Language,
-    /// Folder to write to, made where it is missing. A Rust file is called as the spec is, C files as the robot is or `--name` says.
+    /// Folder to write to, created if missing. A Rust file is named after the spec, C files after the robot or `--name`.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// C only: what its files are called and its names start with, in place of the robot's name. Arms of one program have a name
-    /// each.
+    /// C only: name of the files and prefix of C names, instead of the robot's name. Arms in one program need different names.
     #[arg(long, value_parser = prefix)]
     name: Option<Prefix>,
-    /// Which functions.
+    /// Functions to write.
     #[arg(long, value_enum, default_value_t)]
     functions: Functions,
-    /// Values by name, or what `identify --json` writes: numbers in the equations, in place of arguments.
+    /// Values by name, or what `identify --json` writes: numbers in the equations instead of arguments.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
 }
@@ -66,7 +65,7 @@ impl From<Functions> for Extent {
 enum Language {
     /// Rust without `std`, for `include!`; needs the crate `robot-model`.
     Rust,
-    /// C99, a header and a source, which need nothing but libm; for C++ too.
+    /// C99, a header and a source that need only libm; also for C++.
     C,
 }
 
@@ -98,7 +97,7 @@ impl TypedValueParser for LanguageParser {
                     .iter()
                     .any(|name| value.eq_ignore_ascii_case(name))
                 {
-                    let hint = "write `c`: what it emits is for C++ too".into();
+                    let hint = "write `c`: the C code compiles as C++ too".into();
                     error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint]));
                     error.remove(ContextKind::SuggestedValue);
                 }
@@ -116,7 +115,7 @@ impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if let (Language::Rust, Some(name)) = (self.lang, &self.name) {
             return Err(Error::Argument(format!(
-                "`--name` is for `--lang c`; a page of Rust has the names of the module that includes it: `mod {} {{ include!(..) }}`",
+                "`--name` belongs to `--lang c`; Rust code is named by the module that includes it: `mod {} {{ include!(..) }}`",
                 name.as_str()
             )));
         }
@@ -172,7 +171,7 @@ impl Emit {
                         format!("`{}`", file.display())
                     };
                     format!(
-                        "{it} is a file, and `--out` takes a folder; what stands in it is called as the robot is, or the spec"
+                        "{it} is a file, but `--out` takes a folder; files in it are named after the robot or the spec"
                     )
                 }
                 None => error.to_string(),
@@ -214,7 +213,7 @@ fn refuse_what_others_wrote(path: &Path) -> Result<(), Error> {
         Ok(bytes) if !bytes.is_empty() && !bytes.starts_with(emit::MARK.as_bytes()) => {
             Err(Error::Write {
                 path: path.to_owned(),
-                reason: "it is there and was not generated: give another `--out`, or take it away"
+                reason: "it exists and was not generated: give another `--out`, or remove it"
                     .to_owned(),
             })
         }

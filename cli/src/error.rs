@@ -48,7 +48,7 @@ pub enum Error {
     Json {
         /// The file.
         path: PathBuf,
-        /// Line and column, where it is no JSON at all.
+        /// Line and column, where it is not JSON at all.
         line: Option<(usize, usize)>,
         /// What is wrong with it, with the part that is at fault.
         reason: String,
@@ -67,8 +67,8 @@ pub enum Error {
 }
 
 /// What to do about columns of other names.
-const COLUMNS_HELP: &str = "  = help: say which columns are meant, in the `log` of the spec or in a `robot-model.toml` beside the file: under `[log]` lines as \
-     `q = { columns = [\"axis1\", \"axis2\"], unit = \"deg\" }`";
+const COLUMNS_HELP: &str = "  = help: name the columns in the `log` of the spec, or in a `robot-model.toml` beside the file, under `[log]`, \
+                            with lines like `q = { columns = [\"axis1\", \"axis2\"], unit = \"deg\" }`";
 
 impl Error {
     /// The message as stderr shows it, the line at fault below; spec mistakes carry their own headings.
@@ -117,8 +117,8 @@ impl Error {
                 let lines = lines.iter().map(|line| format!("\n      {line}"));
                 let lines: String = lines.collect();
                 Some(format!(
-                    "  = help: a `robot-model.toml` beside the file names the columns as they are, and the file stays as it is; the \
-                     `log {{ .. }}` of the spec can say the same:\n\n      [log]{lines}\n"
+                    "  = help: name the columns in a `robot-model.toml` beside the file, which stays unchanged, or in the `log {{ .. }}` of \
+                     the spec:\n\n      [log]{lines}\n"
                 ))
             }
             Self::Log(LogError::MissingColumns { .. } | LogError::NoSuchJoint { .. }) => {
@@ -134,7 +134,7 @@ impl Error {
             reason: match error.kind() {
                 std::io::ErrorKind::NotFound => not_there(path),
                 std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
-                std::io::ErrorKind::PermissionDenied => "you may not read it, or enter a folder on the way; `ls -ld` tells who may, or name a copy".to_owned(),
+                std::io::ErrorKind::PermissionDenied => "you have no permission to read it or to enter its folder; see `ls -ld`, or name a copy".to_owned(),
                 _ => error.to_string(),
             },
         }
@@ -167,7 +167,7 @@ fn not_there(path: &Path) -> String {
         .unwrap_or_default();
     match nearest(own, names.iter().map(String::as_str)) {
         Some(near) => format!(
-            "there is no such file; is `{}` meant?",
+            "there is no such file; did you mean `{}`?",
             path.with_file_name(near).display()
         ),
         None => format!(
@@ -192,7 +192,7 @@ mod tests {
         let said = Error::read(Path::new("my log.csv"), &denied).to_string();
         assert_eq!(
             said,
-            "cannot read `my log.csv`: you may not read it, or enter a folder on the way; `ls -ld` tells who may, or name a copy"
+            "cannot read `my log.csv`: you have no permission to read it or to enter its folder; see `ls -ld`, or name a copy"
         );
     }
 }

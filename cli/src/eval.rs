@@ -16,8 +16,8 @@ use crate::spec::compile_instantaneous;
 use crate::{Error, output};
 use states::State;
 
-/// Mass matrix, Coriolis matrix, gravity, torque and regressors (`torque = base_regressor * beta + known_torque`) at given states, energies and slopes, and where the links or
-/// the spec's points are, with their Jacobians, as JSON.
+/// Compute mass matrix, Coriolis matrix, gravity, torque, regressors (`torque = base_regressor * beta + known_torque`), energies,
+/// derivatives, positions of links or points and their Jacobians at given states, as JSON.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model eval arm.robot --states states.json --parameters fit.json
@@ -25,7 +25,7 @@ use states::State;
 pub(crate) struct Eval {
     /// The `.robot` file.
     spec: PathBuf,
-    /// States: `{"states":[{"q":[..],"dq":[..],"ddq":[..]}]}`, in rad and m; where effects read them also `"time"`,
+    /// States: `{"states":[{"q":[..],"dq":[..],"ddq":[..]}]}`, in rad and m; if effects read them, also `"time"`,
     /// `"measured_torque":[..]`, `"inputs":{"temperature":30}` and `"states":{"elbow.lugre_presliding.z":0}`.
     #[arg(long, value_name = "FILE.json")]
     states: PathBuf,
@@ -116,7 +116,7 @@ impl Eval {
             Some((state, form)) => Err(Error::json(
                 &self.states,
                 &format!(
-                    "state {state}: `{form}` is not finite there; write motions that the arm can make, or change the parameters"
+                    "state {state}: `{form}` is not finite there; give states that the arm can reach, or change the parameters"
                 ),
             )),
             None => output::print(&written),

@@ -12,9 +12,9 @@ use crate::spec::read_text;
 
 /// Turn a URDF into a spec.
 ///
-/// The chain of moving joints from `--base` to `--tip` becomes the robot; fixed joints are folded, and what hangs beside the
-/// chain stands still. A joint of the chain that mimics another becomes a joint of its own: a warning and a comment of the
-/// spec say the tie, and which sum of torques acts on the joint that leads.
+/// The chain of moving joints from `--base` to `--tip` becomes the robot; fixed joints are merged, and links beside the chain are held
+/// still. A joint of the chain that mimics another becomes an independent joint: a warning and a comment in the spec give the
+/// constraint, and the sum of torques on the leading joint.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model import arm.urdf -o arm.robot --effects 'all:viscous_friction,coulomb_friction;(5,6):gear_coupling'
@@ -26,23 +26,23 @@ pub(crate) struct Import {
     /// The spec to write.
     #[arg(short, long, value_name = "SPEC")]
     output: PathBuf,
-    /// Link that stands still; the root of the tree where it is not given.
+    /// Link that is fixed; default: the root of the tree.
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// Link at the end of the chain; needed where the tree has several ends.
+    /// Link at the end of the chain; required if the tree has several ends.
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
     /// Effects to declare: joints by number from 1, by name, in pairs for effects of two joints, or `all`, such as
     /// `all:viscous_friction,coulomb_friction;3:motor_inertia;(5,6):gear_coupling`.
     #[arg(long, default_value = "")]
     effects: String,
-    /// What to make of the inertials.
+    /// How to treat the inertials.
     #[arg(long, value_enum, default_value_t)]
     inertials: InertialsArgument,
-    /// Acceleration of gravity in the base link's frame, m/s^2; 0,0,-9.81 where it is not given, since a URDF does not say it.
+    /// Acceleration of gravity in the base link's frame, m/s^2; default 0,0,-9.81, since a URDF cannot hold it.
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     gravity: Option<[f64; 3]>,
-    /// Put the spec in the place of a file that is there already.
+    /// Replace an existing file.
     #[arg(long)]
     force: bool,
 }
@@ -52,9 +52,9 @@ enum InertialsArgument {
     /// CAD values, to be identified.
     #[default]
     Nominal,
-    /// Exact, kept.
+    /// Exact values, not identified.
     Fixed,
-    /// Left out, to be identified without a first value.
+    /// Left out, to be identified without start values.
     None,
 }
 

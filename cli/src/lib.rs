@@ -52,7 +52,7 @@ use clap::{Parser, Subcommand};
 
 pub use error::Error;
 
-/// Robot arms from one spec: equations, code, identification, and what the model lacks.
+/// Robot arms from one spec: equations, code, identification, and tracing of missing effects.
 #[derive(Debug, Parser)]
 #[command(
     name = "robot-model",

@@ -19,8 +19,7 @@ pub(crate) const NAME: &str = "robot-model.toml";
 /// The option of all verbs that read logs.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct LogSettings {
-    /// Columns and units of logs, TOML, channel by channel in place of those of the spec's `log`. Without it each log has those of the
-    /// `robot-model.toml` in its folder, where there is one.
+    /// Columns and units of logs, TOML; each channel overrides that of the spec's `log`. Default: the `robot-model.toml` in the log's folder, if any.
     #[arg(long = "log-settings", value_name = "FILE.toml")]
     file: Option<PathBuf>,
     /// Files as they were read first, and told.
@@ -84,7 +83,7 @@ impl LogSettings {
         let unit = robot_model_spec::log_column_unit(&name, &read_text(&path)?, column, kind)?;
         if let Some(unit) = unit.filter(|unit| (*unit - 1.0).abs() > 0.0) {
             output::say(&format!(
-                "note: {name} says what column `{column}` is in: a one there is {} in SI units",
+                "note: {name} gives the unit of column `{column}`: 1 there is {} in SI units",
                 output::rounded(unit)
             ));
         }
@@ -100,20 +99,19 @@ fn settings(path: &Path, model: &Model, progress: &Progress) -> Result<LogColumn
     let said = found.said.iter().map(|channel| format!("`{channel}`"));
     let said: Vec<String> = said.collect();
     let over = match model.log.line {
-        Some(line) if found.said.iter().any(|own| of_spec.contains(&own.as_str())) => format!(
-            ", in place of what the spec's `log` says of them ({}:{line})",
-            model.source
-        ),
+        Some(line) if found.said.iter().any(|own| of_spec.contains(&own.as_str())) => {
+            format!(", instead of the spec's `log` ({}:{line})", model.source)
+        }
         _ => String::new(),
     };
     if said.is_empty() {
         progress.note(&format!(
-            "note: {name} says nothing of logs; write channels under its `[log]`, such as `q = {{ columns = [\"axis1\", ..], unit = \"deg\" }}`"
+            "note: {name} has no settings for logs; write channels under its `[log]`, such as `q = {{ columns = [\"axis1\", ..], unit = \"deg\" }}`"
         ));
         return Ok(found.columns);
     }
     progress.note(&format!(
-        "note: {name} says which columns of logs are {}{over}",
+        "note: {name} sets the columns of {}{over}",
         said.join(", ")
     ));
     Ok(found.columns)

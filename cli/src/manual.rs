@@ -10,13 +10,13 @@ use crate::interrupt::MadeFolder;
 use crate::output::{Files, counted};
 use crate::{CommandLine, Error, output};
 
-/// Print the manual's page of the program, or write the pages of all verbs.
+/// Print the manual page of the program, or write the pages of all verbs.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model man > robot-model.1
   robot-model man --out ~/.local/share/man/man1")]
 pub(crate) struct Man {
-    /// Folder to write `robot-model.1`, `robot-model-identify.1` and the others to; made where it is missing.
+    /// Folder to write `robot-model.1`, `robot-model-identify.1` and the others to; created if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -67,7 +67,7 @@ fn write(folder: &Path, pages: &[(String, String)]) -> Result<(), Error> {
     } else {
         let made = MadeFolder::make(folder).map_err(|error| Error::Write {
             path: folder.to_owned(),
-            reason: format!("the folder cannot be made: {error}"),
+            reason: format!("the folder cannot be created: {error}"),
         })?;
         Some(made)
     };

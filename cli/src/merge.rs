@@ -18,7 +18,7 @@ use crate::output::{self, Content, Files, Record, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
-/// Identify from factors that `identify --factor` wrote, without the logs.
+/// Identify from factors written by `identify --factor`, without the logs.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model merge arm.robot here.json there.json --validate tuesday.csv --json fit.json
@@ -29,26 +29,26 @@ pub(crate) struct Merge {
     /// Factors of the same spec, `--bands`, `--form` and `--corner`; the form is theirs.
     #[arg(required = true, value_name = "FACTOR")]
     factors: Vec<PathBuf>,
-    /// How parameters are found.
+    /// Estimation method.
     #[arg(long, value_enum, default_value_t)]
     method: MethodArgument,
-    /// What `--method wls` weighs joints by.
+    /// Divisor of each joint's rows with `--method wls`.
     #[arg(long, value_enum, default_value_t)]
     weights: WeightsArgument,
-    /// Of `ridge`: by which share of a body's own size the spec's nominal values are off (one standard deviation); 0.3 without it.
+    /// For `ridge`: standard deviation of the spec's nominal values, as a share of each body's size; default 0.3.
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     prior: Option<f64>,
-    /// A log that is not fitted, to judge the model on.
+    /// Validation log: not fitted, errors are computed on it.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
     #[command(flatten)]
     log_settings: LogSettings,
-    /// Write the factor of all.
+    /// Write the merged factor.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
     #[command(flatten)]
     turns: TurnOptions,
-    /// Take what can be had where the factors do not tell all parameters apart: sums of them, each with a value of its own.
+    /// If the factors do not separate all parameters, identify the sums that they do determine.
     #[arg(long)]
     partial: bool,
     /// Write the result as JSON.
@@ -63,9 +63,9 @@ enum MethodArgument {
     /// Least squares weighted by each joint's residual.
     #[default]
     Wls,
-    /// The same toward the spec's nominal values.
+    /// The same, with the spec's nominal values as measurements.
     Ridge,
-    /// The arm nearest to `wls` that can exist.
+    /// The physically possible arm nearest to `wls`.
     Physical,
 }
 
@@ -79,13 +79,16 @@ impl Merge {
             MethodArgument::Physical => Method::Physical,
         };
         if method != Method::Wls && self.weights != WeightsArgument::Residual {
-            let reason = format!("`--weights` is of `wls`; `{}` has its own", method.name());
+            let reason = format!(
+                "`--weights` belongs to `wls`; `{}` has its own",
+                method.name()
+            );
             return Err(Error::Argument(reason));
         }
         check_prior(self.prior)?;
         if self.prior.is_some() && method != Method::Ridge {
             return Err(Error::Argument(
-                "`--prior` is of `--method ridge`".to_owned(),
+                "`--prior` belongs to `--method ridge`".to_owned(),
             ));
         }
         let default = Identify::default();
@@ -102,8 +105,7 @@ impl Merge {
         let identify = self.identify()?;
         if self.validate.is_none() && self.log_settings.is_given() {
             return Err(Error::Argument(
-                "`--log-settings` is of the log of `--validate`; factors are read as they are"
-                    .to_owned(),
+                "`--log-settings` applies to the validation log; give `--validate` too".to_owned(),
             ));
         }
         let inputs = std::iter::once(&self.spec)
@@ -192,7 +194,7 @@ impl Merge {
             table(&estimate, &errors)
         };
         output::print(&format!(
-            "{estimate}relative error of what was fitted, in the filtered band: {}\n{table}",
+            "{estimate}relative error of the fitted logs, in the filtered band: {}\n{table}",
             fitted.join(", ")
         ))
     }
@@ -204,7 +206,7 @@ fn twice(path: &Path, factor: &Factor, before: &[(&Path, Factor)]) -> Vec<String
         let common = factor.common_parts(other);
         (common > 0).then(|| {
             format!(
-                "{} has {} of a log that {} has, too: what it says counts twice, and deviations come out too small; give it once",
+                "{} has {} of a log that {} also has: they count twice, and standard deviations are too small; give them once",
                 path.display(),
                 counted(common, "part"),
                 first.display()

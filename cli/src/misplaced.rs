@@ -21,19 +21,21 @@ pub(crate) fn instead_of_a_spec(path: &Path, bytes: &[u8]) -> Option<String> {
         .is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
     if is_urdf || (is_markup(&start) && start.contains("<robot")) {
         return Some(format!(
-            "it looks like a URDF, and a spec has to stand here; write one from it: `robot-model import {name} -o arm.robot`"
+            "it looks like a URDF, but a spec is expected here; convert it: `robot-model import {name} -o arm.robot`"
         ));
     }
     if start.starts_with(['{', '[']) {
         return Some(format!(
-            "it looks like JSON, and a spec has to stand here; name the spec first, and a file of parameters behind `--parameters`, as in `robot-model audit arm.robot --parameters {name}`"
+            "it looks like JSON, but a spec is expected here; name the spec first and the file of parameters after `--parameters`, as in \
+             `robot-model audit arm.robot --parameters {name}`"
         ));
     }
     let is_called_log = ENDS.iter().any(|end| lower.ends_with(end));
     let is_log = is_log(bytes) || (!is_empty && is_called_log);
     is_log.then(|| {
         format!(
-            "it looks like a log, and a spec has to stand here; name the spec first and logs behind it, as in `robot-model identify arm.robot {name}`"
+            "it looks like a log, but a spec is expected here; name the spec first and the logs after it, as in `robot-model identify \
+             arm.robot {name}`"
         )
     })
 }
@@ -43,7 +45,7 @@ pub(crate) fn instead_of_a_urdf(path: &Path, text: &str) -> Option<String> {
     let name = path.display();
     is_spec(text).then(|| {
         format!(
-            "it looks like a spec, and a URDF has to stand here; a spec is read as it is: `robot-model check {name}`"
+            "it looks like a spec, but a URDF is expected here; a spec needs no import: `robot-model check {name}`"
         )
     })
 }
@@ -65,7 +67,8 @@ pub(crate) fn instead_of_json(path: &Path, text: &str) -> Option<String> {
         return None;
     };
     Some(format!(
-        "it looks like {what}, and JSON has to stand here; parameters are written `{{\"NAME\": VALUE, ..}}`, or by `robot-model identify .. --json FILE`"
+        "it looks like {what}, but JSON is expected here; parameters are written `{{\"NAME\": VALUE, ..}}`, or by `robot-model identify .. \
+         --json FILE`"
     ))
 }
 

@@ -18,7 +18,7 @@ use crate::{Error, output};
 pub(crate) struct Show {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Which equations; without it a whole description, in LaTeX a whole document.
+    /// Equations to show; default: all, in LaTeX a whole document.
     #[arg(long, value_enum)]
     what: Option<WhatArgument>,
     /// Notation.
@@ -44,11 +44,11 @@ enum WhatArgument {
     Slopes,
     /// `Y` with `tau = Y * standard`
     Regressor,
-    /// `Y_b` with `tau = Y_b * beta`, besides what the spec fixes
+    /// `Y_b` with `tau = Y_b * beta`, without the parts that the spec fixes
     BaseRegressor,
     /// `Y_p` and `Y_h` of `L{tau} = Y_L * standard`, `Y_L = w (Y_p - L{Y_p}) - L{Y_h}`, `L(s) = w / (s + w)`
     FilteredRegressor,
-    /// The same with `L{tau} = Y_L * beta`, besides what the spec fixes
+    /// The same with `L{tau} = Y_L * beta`, without the parts that the spec fixes
     BaseFilteredRegressor,
     /// Kinetic and potential energy of the rigid body
     Energies,
@@ -58,11 +58,11 @@ enum WhatArgument {
     Jacobian,
     /// Rates of the internal states of effects
     StateRates,
-    /// Where links stand that are not at `q`, and by how much logged torques are late
+    /// Link positions that differ from `q`, and delays of logged torques
     Measurement,
-    /// How `beta` is made of the standard parameters
+    /// `beta` as sums of standard parameters
     BaseParameters,
-    /// Operations of the emitted functions
+    /// Operation counts of the emitted functions
     Cost,
 }
 
@@ -108,7 +108,7 @@ impl Show {
             (self.what, has_places)
         {
             return Err(Error::Argument(format!(
-                "{}: the robot names no points, so nothing is known of where it is; write `point tip = [x, y, z];`",
+                "{}: the robot has no points, so its position is unknown; write `point tip = [x, y, z];`",
                 compiled.model.source
             )));
         }

@@ -44,7 +44,7 @@ pub(crate) fn check_ends(path: &Path) -> Result<(), Error> {
     match endless(path) {
         Some(what) => Err(Error::Read {
             path: path.to_owned(),
-            reason: format!("it is {what}; write what it has into a file, and name that"),
+            reason: format!("it is {what}; save its content to a file, and name that"),
         }),
         // What nobody may read is told in the same words whatever reads it.
         None if path.is_file() => match File::open(path) {
@@ -96,11 +96,14 @@ fn text_of(path: &Path, bytes: Vec<u8>, most: usize) -> Result<String, Error> {
     }
     String::from_utf8(bytes).map_err(|error| {
         let sound = error.utf8_error().valid_up_to();
-        let line = String::from_utf8_lossy(&error.as_bytes()[..sound]).matches('\n').count() + 1;
+        let line = String::from_utf8_lossy(&error.as_bytes()[..sound])
+            .matches('\n')
+            .count()
+            + 1;
         Error::Read {
             path: path.to_owned(),
             reason: format!(
-                "line {line} is no text in UTF-8; save the file as such, or name the file that has the text"
+                "line {line} is not UTF-8 text; save the file as UTF-8, or name a text file"
             ),
         }
     })
@@ -164,7 +167,7 @@ fn far_shapes(model: &Model) -> Vec<String> {
                 continue;
             };
             let said = format!(
-                "{}: `{}` of effect `{}` is {value}, in SI units, and is looked for in {} .. {}; see whether its unit is right",
+                "{}: `{}` of effect `{}` is {value} in SI units, outside its search range {} .. {}; check its unit",
                 effect.line, shape.name, definition.name, shape.low, shape.high
             );
             // A declaration on several joints is one line.

@@ -76,13 +76,13 @@ impl fmt::Display for BakeError {
                 "{found} numbers for {wanted} {what}; give one for each, in their order"
             ),
             Self::NotFinite { name, value } => {
-                write!(f, "`{name}` is {value}; it has to be a finite number")
+                write!(f, "`{name}` is {value}; it must be a finite number")
             }
             Self::Shape {
                 name,
                 value,
                 wanted,
-            } => write!(f, "`{name}` is {value}; it has to be {wanted}"),
+            } => write!(f, "`{name}` is {value}; it must be {wanted}"),
         }
     }
 }
@@ -162,17 +162,17 @@ mod tests {
             (
                 &[f64::NAN, 5.0],
                 &[0.1],
-                "`cart.m` is NaN; it has to be a finite number",
+                "`cart.m` is NaN; it must be a finite number",
             ),
             (
                 &[3.0, 5.0],
                 &[f64::INFINITY],
-                "`rail.stribeck.vs` is inf; it has to be a finite number",
+                "`rail.stribeck.vs` is inf; it must be a finite number",
             ),
             (
                 &[3.0, 5.0],
                 &[0.0],
-                "`rail.stribeck.vs` is 0; it has to be a positive number",
+                "`rail.stribeck.vs` is 0; it must be a positive number",
             ),
         ];
         for (beta, shapes, wanted) in cases {

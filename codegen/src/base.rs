@@ -115,7 +115,7 @@ impl BaseForm {
         }
         if !asleep.is_empty() {
             remarks.push(format!(
-                "the torque of {} was zero at every state that was tried: is a threshold beyond all motions?",
+                "the torque of {} was zero at every tested state: is a threshold outside all motions?",
                 asleep.join(", ")
             ));
         }

@@ -34,7 +34,7 @@ pub enum CompileError {
     Rank(String, RankStatus),
     /// No equation says the whole torque.
     NotInstantaneous(NotInstantaneous),
-    /// A file of parameters is not one of this arm: the file, line and column where it is no JSON, and what is wrong.
+    /// A file of parameters is not one of this arm: the file, line and column where it is not JSON, and what is wrong.
     Parameters(PathBuf, Option<(usize, usize)>, String),
     /// One build script gives a spec several sets of numbers, and so would its generated file have.
     SameArm(PathBuf),
@@ -48,7 +48,7 @@ impl fmt::Display for CompileError {
                     ErrorKind::NotFound => {
                         "; paths in a build script are relative to the folder of Cargo.toml"
                     }
-                    ErrorKind::InvalidData => "; it is no text in UTF-8: save it as such",
+                    ErrorKind::InvalidData => "; it is not UTF-8 text: save it as UTF-8",
                     _ => "",
                 };
                 write!(f, "cannot use `{}`: {error}{help}", path.display())
@@ -66,7 +66,7 @@ impl fmt::Display for CompileError {
                 second.display(),
                 second.file_stem().unwrap_or_default().display()
             ),
-            Self::NoFileName(path) => write!(f, "`{}` names no file", path.display()),
+            Self::NoFileName(path) => write!(f, "`{}` does not name a file", path.display()),
             Self::Spec(diagnostics) => write!(f, "{diagnostics}"),
             Self::NotInstantaneous(reason) => write!(f, "{reason}"),
             Self::Rank(source, status) => write!(f, "{source}: {status}"),
@@ -79,7 +79,7 @@ impl fmt::Display for CompileError {
             }
             Self::SameArm(spec) => write!(
                 f,
-                "`{}` is compiled more than once, with other parameters: give each arm a spec with a name of its own",
+                "`{}` is compiled more than once, with different parameters: give each arm its own spec file",
                 spec.display()
             ),
         }
@@ -330,7 +330,7 @@ mod tests {
         );
         assert_eq!(
             said("{\"up.m\": 4,}"),
-            "fit.json:1:12: it is no JSON: trailing comma; repair it here"
+            "fit.json:1:12: it is not JSON: trailing comma; repair it here"
         );
         assert!(said("[]").starts_with("fit.json: it is a list: write "));
     }

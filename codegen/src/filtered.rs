@@ -64,7 +64,7 @@ impl fmt::Display for Reason {
             Self::Coefficient => {
                 "its torque has an acceleration with a factor that depends on more than positions"
             }
-            Self::Displacement => "it moves a link by what changes along a motion",
+            Self::Displacement => "it displaces a link depending on the motion",
             Self::Memory => "its torque has a memory that follows the acceleration",
             Self::Load => {
                 "its torque depends on the load, `rigid_torque`, which contains the acceleration"

@@ -35,8 +35,8 @@ impl NotInstantaneous {
     /// Without the place.
     pub(crate) fn reason(&self) -> String {
         format!(
-            "`{}` moves a link by what changes along a motion, so the torque of one instant is not known from `q`, `dq` and `ddq`; \
-             identify with it, and take it out where equations or code are wanted",
+            "`{}` displaces a link depending on the motion, so `q`, `dq` and `ddq` of one instant do not determine the torque; identify \
+             with it, but remove it for equations or code",
             self.effect
         )
     }

@@ -72,7 +72,7 @@ impl std::fmt::Display for NoNumber {
         };
         write!(
             f,
-            "the torque of `{}` is no number at any state that was tried, such as {}: write {limits} inside which it is one",
+            "the torque of `{}` is not a number at any tested state, such as {}: write {limits} within which it is one",
             self.name,
             at.join(", ")
         )

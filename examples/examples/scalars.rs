@@ -14,8 +14,8 @@ pub fn main() {
     let tau = arm.inverse_dynamics_at(&four);
     let of_the_shoulder = tau[0].to_array(); // at the first state, the second, ..
 
-    // The page of a file has functions on arrays besides, `f(&q, ..)`, with `&beta` behind where no numbers are in it.
-    let q = [Dual::variable(0.3), Dual::constant(-0.8)]; // slopes are by the shoulder's position
+    // A page from a file also has functions on arrays, `f(&q, ..)`, with a last argument `&beta` unless it has numbers.
+    let q = [Dual::variable(0.3), Dual::constant(-0.8)]; // derivatives by the shoulder's position
     let still = [Dual::constant(0.0); 2];
     let tau = arm::inverse_dynamics(&q, &still, &still);
     let stiffness = [tau[0].slope, tau[1].slope]; // d tau / d q1; `tau[0].value` is the torque

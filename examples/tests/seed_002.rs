@@ -106,7 +106,7 @@ fn base_parameters_are_seventy_both_ways() {
         assert_eq!(wrong.passed, Some(false));
         assert!(wrong.findings.len() >= least, "{:?}", wrong.findings);
         for said in &wrong.findings {
-            assert!(said.starts_with("torques do not tell `"), "{said}");
+            assert!(said.starts_with("torques do not determine `"), "{said}");
         }
     }
     assert_eq!(asked.of_measured.findings, [""; 0]);

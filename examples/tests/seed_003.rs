@@ -121,19 +121,19 @@ fn equations_and_numbers_that_are_wrong_are_told_and_pass_when_mended() {
         (
             "(8)",
             &findings.unit,
-            "terms of different dimensions do not add",
+            "terms of different dimensions cannot be added",
         ),
         ("(17)", deflection, "the torque off by"),
         ("(22)", &findings.damping, "and 1/s^2"),
         (
             "stall",
             &findings.drives,
-            "held by 2.0020 N m of friction, and its motor has 1.0885 N m",
+            "has 2.0020 N m of friction, but its torque limit is 1.0885 N m",
         ),
         (
             "passivity",
             &findings.memory,
-            "driven by what its effects remember",
+            "effects with memory add energy",
         ),
         ("softness", &findings.softness, "(15."),
         ("differences", &findings.differences, "1.534 rad/s"),

@@ -4,7 +4,8 @@
 ///
 /// Identifiable from motion at several speeds in both directions.
 ///
-/// Confused with `torque_offset`: at one speed both are the same constant. Parted by several speeds, slow ones among them.
+/// Confused with `torque_offset`: at one speed both are the same constant. Distinguished by several speeds, slow ones among
+/// them.
 effect asymmetric_viscous(j) {
     /// Half the difference of the two viscous coefficients, N m s/rad (N s/m for a prismatic joint).
     linear delta;

@@ -1,15 +1,15 @@
-/// A base that does not stand as the spec says: gravity comes from another direction.
+/// A base with another orientation than in the spec: gravity comes from another direction.
 ///
-/// The base is turned by two angles about the axes of its frame that are not along gravity: for gravity along z first about x,
-/// then about y. Turning it about gravity itself changes nothing.
+/// The base is rotated by two angles about the axes of its frame that are not along gravity: for gravity along z first about x,
+/// then about y. A rotation about gravity has no effect.
 ///
-/// Identifiable where a joint that the tilt loads moves through a good part of a turn; where all inertials are unknown, through
-/// the axes that gravity did not load before.
+/// Identifiable if a joint that the tilt loads moves through a large part of a turn; with unknown inertials, by the axes that
+/// gravity did not load before.
 ///
-/// Confused with `encoder_offset`: of an arm in a vertical plane a tilt in that plane is the offset of the first joint, to the
-/// last digit. Parted by no motion there; in other arms by motion of the joints whose axes are not parallel to the first.
+/// Confused with `encoder_offset`: for an arm in a vertical plane a tilt in that plane equals an offset of the first joint
+/// exactly. Distinguished by no motion there; in other arms by motion of the joints whose axes are not parallel to the first.
 ///
-/// Confused with `torque_offset`: in poses that are alike the torque of gravity changes by a constant. Parted by poses over a
+/// Confused with `torque_offset`: in similar poses the torque of gravity changes by a constant. Distinguished by poses over a
 /// good part of a turn.
 effect base_tilt() {
     /// Angle about the first axis, rad.

@@ -1,20 +1,20 @@
-/// Torque of a hose or a cable bundle that is bent to and fro (Bouc and Wen's model).
+/// Torque of a hose or a cable bundle that is bent back and forth (Bouc-Wen model).
 ///
 /// `dz/dt = dq / width (1 - abs(z)^n (beta sign(dq z) + 1 - beta))`, `torque = f z`, with `abs(z) <= 1`. In the usual form,
-/// `dw/dt = dq (1 - abs(w)^n (B sign(dq w) + C))` and `torque = D w`, it is `w = width z`, `D = f / width`,
-/// `B = beta / width^n`, `C = (1 - beta) / width^n`. Loops of torque over position, wider than those of dry friction, that lose
-/// energy for `beta >= 0.5`. Sources: Bouc 1967, Wen 1976.
+/// `dw/dt = dq (1 - abs(w)^n (B sign(dq w) + C))` and `torque = D w`, it is `w = width z`, `D = f / width`, `B = beta /
+/// width^n`, `C = (1 - beta) / width^n`. Loops of torque over position, wider than those of dry friction, that lose energy for
+/// `beta >= 0.5`. Sources: Bouc 1967, Wen 1976.
 ///
 /// Identifiable from reversals at several amplitudes.
 ///
-/// Confused with `dahl`: with `beta = 1` and `n = 1` it is the same law; with others its loops bend otherwise. Parted by
+/// Confused with `dahl`: with `beta = 1` and `n = 1` it is the same law; with others its loops bend otherwise. Distinguished by
 /// reversals at several amplitudes, small ones among them.
 ///
-/// Confused with `coulomb_friction`: over travels that are much longer than `width` nothing is left but a constant against the
-/// motion. Parted by reversals after a short way.
+/// Confused with `coulomb_friction`: over travels much longer than `width` it is a constant against the motion. Distinguished
+/// by reversals after a short travel.
 ///
-/// Confused with `joint_spring`: in motion that is small beside `width` the torque follows the position. Parted by motion over
-/// several times `width`.
+/// Confused with `joint_spring`: in motion much smaller than `width` the torque follows the position. Distinguished by motion
+/// over several times `width`.
 effect cable_hysteresis(j) {
     /// Torque on the far sides of the loop, N m (N for a prismatic joint).
     linear f >= 0;

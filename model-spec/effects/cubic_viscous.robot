@@ -4,8 +4,8 @@
 ///
 /// Identifiable where high speeds are reached.
 ///
-/// Confused with `quadratic_viscous`, `viscous_friction`: over a narrow range of speeds each is a straight line. Parted by
-/// speeds from slow ones to the limit.
+/// Confused with `quadratic_viscous`, `viscous_friction`: over a narrow range of speeds each is a straight line. Distinguished
+/// by speeds from slow ones to the limit.
 effect cubic_viscous(j) {
     /// Coefficient, N m s^3/rad^3 (N s^3/m^3 for a prismatic joint).
     linear c;

@@ -1,11 +1,11 @@
-/// A joint whose zero is not where the spec has it.
+/// A joint whose zero differs from that of the spec.
 ///
-/// The logged position is `offset` more than that of the link. Gravity and the inertia of bent arms tell it.
+/// The logged position is `offset` more than that of the link. It is visible in gravity and in the inertia of bent arms.
 ///
-/// Identifiable in poses over a good part of a turn. It cannot be told from first moments where the joint's axis is the first
-/// horizontal one and links are unknown: turning that joint turns those too.
+/// Identifiable in poses over a good part of a turn. It cannot be separated from first moments if the joint's axis is the first
+/// horizontal one and links are unknown: an offset of that joint rotates these too.
 ///
-/// Confused with `torque_offset`: in poses that are alike gravity changes by a constant. Parted by poses over a good part of a
+/// Confused with `torque_offset`: in similar poses gravity changes by a constant. Distinguished by poses over a good part of a
 /// turn.
 effect encoder_offset(j) {
     /// Logged position less the true one, rad (m for a prismatic joint).

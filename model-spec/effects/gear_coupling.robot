@@ -1,12 +1,12 @@
 /// Two wrist joints whose motors are coupled by the gear: the second motor turns with both joints.
 ///
-/// The motor of `k` turns by `q(j) + q(k)`. Its inertia and friction act on both joints; the part that each joint feels of its
-/// own motion is in the joint's own `motor_inertia` and `viscous_friction`. Symmetric in `j` and `k`.
+/// The motor of `k` turns by `q(j) + q(k)`. Its inertia and friction act on both joints; the part from each joint's own motion
+/// is in its `motor_inertia` and `viscous_friction`. Symmetric in `j` and `k`.
 ///
-/// Identifiable when both joints move, at times alone and at times together.
+/// Identifiable if both joints move, sometimes alone and sometimes together.
 ///
-/// Confused with `motor_inertia`, `viscous_friction`, `coulomb_friction`: where both joints move in proportion, each feels what
-/// its own motor could do to it. Parted by joints that move at times alone and at times together.
+/// Confused with `motor_inertia`, `viscous_friction`, `coulomb_friction`: if both joints move in proportion, the coupling looks
+/// like an effect of each joint's own motor. Distinguished by joints that move sometimes alone and sometimes together.
 effect gear_coupling(j, k) {
     /// Coupling inertia, kg m^2.
     linear ia;

@@ -1,14 +1,14 @@
 /// A spring between motor and link: a harmonic drive, a belt, a long shaft.
 ///
-/// The encoder is on the motor's side. The link stands behind by what the transmission carries over the stiffness; its velocity
-/// and acceleration follow. Motor inertia and friction stay on the motor's side: declare `motor_inertia` with it. The spring is
-/// bent by the logged torque, so its noise is in the prediction.
+/// The encoder is on the motor's side. The link lags by the load of the transmission divided by the stiffness; its velocity and
+/// acceleration follow. Motor inertia and friction stay on the motor's side: declare `motor_inertia` with it. The logged torque
+/// deflects the spring, so its noise is in the prediction.
 ///
-/// Identifiable where the load changes so fast that the link falls behind by many encoder steps, and where torque and positions
-/// are not filtered apart.
+/// Identifiable if the load changes so much that the link lags by many encoder steps, and if torque and positions are filtered
+/// alike.
 ///
-/// Confused with `time_delay`: in fast motion both put the torque out of step with the position. Parted by slow motion under
-/// large loads, in which a spring is bent and a delay is nothing.
+/// Confused with `time_delay`: in fast motion both shift the torque in time against the position. Distinguished by slow motion
+/// under large loads, which deflects a spring, while a delay has no effect.
 effect joint_elasticity(j) {
     /// N m/rad (N/m for a prismatic joint).
     shape stiffness in 0.1 .. 1000000;

@@ -1,18 +1,18 @@
-/// Friction of bristles that bend before they slide (the `LuGre` model), in place of Coulomb friction.
+/// Friction of bristles that deflect before they slide (the `LuGre` model), instead of Coulomb friction.
 ///
-/// With the bristles' deflection in units of that at which they slide, `z = s0 deflection / fc`:
-/// `dz/dt = (dq - abs(dq) z / g) / d`, `g = 1 + rise exp(-(dq/vs)^2)`, `torque = fc z + s1 d dz/dt`. The stiffness of the
-/// bristles is `s0 = fc / d`. At constant speed `z = g`: the torque is `fc + (fs - fc) exp(-(dq/vs)^2)`, with
-/// `fs = (1 + rise) fc`. Viscous friction stands beside it. Source: Canudas de Wit, Olsson, Astrom, Lischinsky 1995.
+/// With the bristles' deflection in units of that at which they slide, `z = s0 deflection / fc`: `dz/dt = (dq - abs(dq) z / g)
+/// / d`, `g = 1 + rise exp(-(dq/vs)^2)`, `torque = fc z + s1 d dz/dt`. The stiffness of the bristles is `s0 = fc / d`. At
+/// constant speed `z = g`: the torque is `fc + (fs - fc) exp(-(dq/vs)^2)`, with `fs = (1 + rise) fc`. Declare viscous friction
+/// separately. Source: Canudas de Wit, Olsson, Astrom, Lischinsky 1995.
 ///
-/// Identifiable in `fc` and `rise` like Coulomb friction and Stribeck's; in `d` and `s1` from reversals that an encoder resolves
-/// into some ten steps per `d`.
+/// Identifiable in `fc` and `rise` like Coulomb friction and Stribeck's; in `d` and `s1` from reversals that an encoder
+/// resolves into some ten steps per `d`.
 ///
-/// Confused with `dahl`: with `rise = 0` and without `s1` it is the same. Parted by slow motion over longer ways, where friction
-/// falls as speed rises, and by fast reversals.
+/// Confused with `dahl`: with `rise = 0` and without `s1` it is the same. Distinguished by slow motion over longer travels,
+/// where friction falls with speed, and by fast reversals.
 ///
-/// Confused with `stribeck`, `coulomb_friction`: over distances much longer than `d` bristles slide, and their law is that of
-/// the speed. Parted by reversals after a short way.
+/// Confused with `stribeck`, `coulomb_friction`: over distances much longer than `d` bristles slide, and friction only depends
+/// on the speed. Distinguished by reversals after a short travel.
 effect lugre_presliding(j) {
     /// Torque of sliding, N m (N for a prismatic joint).
     linear fc >= 0;

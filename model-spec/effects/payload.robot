@@ -1,10 +1,9 @@
-/// A rigid body that the arm carries and its spec does not: a tool, a load in the gripper.
+/// A rigid body that the arm carries but its spec lacks: a tool, a load in the gripper.
 ///
 /// A body fixed to the link of joint `j`, as a rule the last one: mass, first moments and inertia about the origin of that
 /// link's frame. Rigid-body torque is linear in them, so they are identified as the columns of the link.
 ///
-/// Identifiable where the link's own inertial is `fixed`, so that what is more can be told from it; else it is in the base
-/// parameters of the link already.
+/// Identifiable if the link's own inertial is `fixed`; else it is part of the link's base parameters.
 effect payload(j) {
     /// Mass, kg.
     linear m >= 0;

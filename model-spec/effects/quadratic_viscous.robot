@@ -4,8 +4,8 @@
 ///
 /// Identifiable where high speeds are reached; at low speed it hides in viscous friction.
 ///
-/// Confused with `viscous_friction`: over a narrow range of speeds both are a straight line. Parted by speeds from slow ones to
-/// the limit.
+/// Confused with `viscous_friction`: over a narrow range of speeds both are a straight line. Distinguished by speeds from slow
+/// ones to the limit.
 effect quadratic_viscous(j) {
     /// Coefficient, N m s^2/rad^2 (N s^2/m^2 for a prismatic joint).
     linear c >= 0;

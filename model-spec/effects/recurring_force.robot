@@ -1,15 +1,13 @@
-/// A force of the world on the arm that comes back in every period of the motion: a part that is touched on the way, a guide, a
-/// press.
+/// An external force on the arm that repeats in every period of the motion: a part that is touched, a guide, a press.
 ///
-/// As `external_force`, from `start` to `end` of the period of a motion that repeats, both as shares of it; from an end before
-/// its start it goes on into the next period. `motion_phase` is 0 at the start of the log and of every period, and 1 before the
-/// next; `identify` and `trace` find the period in the positions.
+/// As `external_force`, from `start` to `end` of the period of a repeating motion, both as shares of it; with an end before its
+/// start it continues into the next period. `motion_phase` is 0 at the start of the log and of every period, and 1 before the
+/// next; `identify` and `trace` find the period from the positions.
 ///
-/// Identifiable where the force is there in some of the poses only, as what follows from the pose alone may be taken for springs
-/// and gravity.
+/// Identifiable if the force acts in only some of the poses, as a function of the pose alone looks like springs and gravity.
 ///
-/// Confused with `joint_spring`: where the force is there in most of the poses it may be a function of them. Parted by motion
-/// that passes the same poses with the force and without it.
+/// Confused with `joint_spring`: if the force acts in most of the poses, it may be a function of them. Distinguished by motion
+/// through the same poses with and without the force.
 effect recurring_force(j) {
     kind external_force;
     /// Force along the axes of the base, N.

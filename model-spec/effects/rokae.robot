@@ -2,13 +2,13 @@
 ///
 /// Below the speed `eps` a straight line to zero, `fc dq / eps`; above it `fc sign(dq) + fv1 dq + fv2 dq^2 + fv3 dq^3`, with
 /// `fc = fc1` forward and `fc = fc2` backward. The polynomial begins at `eps` with a jump, as in the publication. `fv2` is even
-/// in the speed: it differs between the directions. With `fv3 < 0` friction falls at high speed and even changes its sign there:
-/// do not use the law beyond the speeds it was identified at. In place of Coulomb and viscous friction.
+/// in the speed: it differs between the directions. With `fv3 < 0` friction falls at high speed and may change its sign: do not
+/// use the law beyond the identified speeds. Use it instead of Coulomb and viscous friction.
 ///
 /// Identifiable from motion in both directions at speeds from slow ones to the limit.
 ///
 /// Confused with `coulomb_friction`, `asymmetric_coulomb`, `viscous_friction`, `cubic_viscous`: above `eps` it is a sum of
-/// these, and of the square of the speed. Parted by no motion: declare the sum or its parts, not both.
+/// these, and of the square of the speed. Distinguished by no motion: declare the sum or its parts, not both.
 effect rokae(j) {
     /// Dry friction forward, N m (N for a prismatic joint).
     linear fc1 >= 0;

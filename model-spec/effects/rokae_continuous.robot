@@ -1,14 +1,15 @@
-/// The friction of `rokae` without its jump: dry friction that differs between the directions, and a cubic polynomial of the speed from rest on.
+/// The friction of `rokae` without its jump: dry friction that differs between the directions, and a cubic polynomial of the
+/// speed from rest on.
 ///
-/// `fc min(|dq| / eps, 1) sign(dq) + fv1 dq + fv2 dq^2 + fv3 dq^3`, with `fc = fc1` forward and `fc = fc2` backward. `rokae` as published
-/// leaves the polynomial out below the speed `eps`, so its torque jumps there; here it begins at rest. `fv2` is even in the speed: it
-/// differs between the directions. With `fv3 < 0` friction falls at high speed and even changes its sign there: do not use the law
-/// beyond the speeds it was identified at. In place of Coulomb and viscous friction.
+/// `fc min(|dq| / eps, 1) sign(dq) + fv1 dq + fv2 dq^2 + fv3 dq^3`, with `fc = fc1` forward and `fc = fc2` backward. `rokae` as
+/// published leaves the polynomial out below the speed `eps`, so its torque jumps there; here it begins at rest. `fv2` is even
+/// in the speed: it differs between the directions. With `fv3 < 0` friction falls at high speed and may change its sign: do not
+/// use the law beyond the identified speeds. Use it instead of Coulomb and viscous friction.
 ///
 /// Identifiable from motion in both directions at speeds from slow ones to the limit.
 ///
-/// Confused with `rokae`: above `eps` both are the same, and below it they differ by less than a joint's dry friction does. Parted by no
-/// motion that is worth its time: declare one of them.
+/// Confused with `rokae`: above `eps` both are the same, and below it they differ by less than the variation of dry friction.
+/// Distinguished by no motion that is worth the effort: declare one of them.
 effect rokae_continuous(j) {
     /// Dry friction forward, N m (N for a prismatic joint).
     linear fc1 >= 0;

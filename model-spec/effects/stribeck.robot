@@ -4,11 +4,11 @@
 ///
 /// Identifiable from slow reversals, with many samples below two times `vs`.
 ///
-/// Confused with `coulomb_friction`: in motion that is slower than `vs` all along both are a constant against the motion. Parted
-/// by speeds from slow ones to several times `vs`.
+/// Confused with `coulomb_friction`: in motion that is always slower than `vs` both are a constant against the motion.
+/// Distinguished by speeds from slow ones to several times `vs`.
 ///
-/// Confused with `dahl`: both are felt next to reversals, the one over a range of speeds, the other over a way. Parted by slow
-/// motion over long ways, and by reversals of several accelerations.
+/// Confused with `dahl`: both appear near reversals, one over a range of speeds, the other over a travel. Distinguished by slow
+/// motion over long travels, and by reversals of several accelerations.
 effect stribeck(j) {
     /// Breakaway minus Coulomb torque, N m (N for a prismatic joint).
     linear fs >= 0;

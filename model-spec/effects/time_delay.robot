@@ -1,14 +1,14 @@
-/// A torque channel that comes later than the position channel: a filter in the drive, a bus, another clock.
+/// A torque channel that is late against the position channel: a filter in the drive, a bus, another clock.
 ///
-/// The log has at `t` the torque of `t - delay`. A fault of the log and not of the arm: emitted equations do not know it.
+/// The log has at `t` the torque of `t - delay`. A fault of the log, not of the arm: emitted equations do not include it.
 ///
-/// Identifiable where accelerations are large, as the torque of inertia changes fastest; beside unknown viscous friction in more
-/// than one pose.
+/// Identifiable with large accelerations, as the torque of inertia changes fastest; with unknown viscous friction in more than
+/// one pose.
 ///
-/// Confused with `viscous_friction`: in one pose gravity grows with the position, and what is late by `delay` lags by `delay`
-/// times the speed. Parted by large accelerations and more than one pose.
+/// Confused with `viscous_friction`: in one pose gravity grows with the position, and a signal that is late by `delay` lags by
+/// `delay` times the speed. Distinguished by large accelerations and more than one pose.
 ///
-/// Confused with `encoder_offset`: at a constant speed a joint that is seen late is seen elsewhere. Parted by motion in both
+/// Confused with `encoder_offset`: at a constant speed a late position is an offset position. Distinguished by motion in both
 /// directions.
 effect time_delay() {
     /// Seconds; negative where the torque comes early.

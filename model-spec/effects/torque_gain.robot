@@ -1,10 +1,9 @@
 /// A torque channel with a wrong scale: the torque constant, or the gear ratio, is not what was assumed.
 ///
-/// Logged is `gain` times the true torque: `excess load` on top of the load, which is the torque of the rigid body, with
-/// `gain = 1 + excess`. Friction is scaled as well, which its own coefficients take in.
+/// Logged is `gain` times the true torque: `excess load` on top of the load, which is the torque of the rigid body, with `gain
+/// = 1 + excess`. Friction is scaled as well, which its own coefficients absorb.
 ///
-/// Identifiable where something of the load is known from elsewhere: links that are `fixed`, or the same links seen by other
-/// joints.
+/// Identifiable if part of the load is known: links that are `fixed`, or links that also load other joints.
 effect torque_gain(j) {
     /// Gain less one.
     linear excess;

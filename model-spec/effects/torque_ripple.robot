@@ -4,7 +4,8 @@
 ///
 /// Identifiable from slow motion over several periods, sampled several times a period.
 ///
-/// Confused with `joint_spring`: over a small part of a period both are a straight line. Parted by motion over several periods.
+/// Confused with `joint_spring`: over a small part of a period both are a straight line. Distinguished by motion over several
+/// periods.
 effect torque_ripple(j) {
     /// Amplitude of the cosine, N m (N for a prismatic joint).
     linear a;

@@ -1,14 +1,14 @@
-/// A motor that delivers less than the logged command where that is beyond its limits.
+/// A motor that delivers less than a logged command beyond its limits.
 ///
 /// Delivered is the command between the limits `limit max(0, 1 - max(0, dq sign(command)) / v0)`: `limit` at rest and against
-/// the motion, falling to nothing at the speed `v0` where command and motion have one direction. What is logged and not
-/// delivered adds to the torque of the model. `share` comes out as 1 where the law holds.
+/// the motion, falling to zero at the speed `v0` if command and motion have the same direction. The logged torque that is not
+/// delivered adds to the torque of the model. `share` is 1 if the law holds.
 ///
-/// Identifiable where the log has commands within the limits and beyond them. Both limits have to be given (from the drive's
-/// data sheet): with free limits the logged torque would explain itself.
+/// Identifiable if the log has commands within and beyond the limits. Both limits must be given (from the drive's data sheet):
+/// with free limits the logged torque would explain itself.
 ///
-/// Confused with `torque_gain`: where most of the large torques are cut, what is delivered is a smaller share of what is logged.
-/// Parted by the same motion at half the speed, which stays within the limits.
+/// Confused with `torque_gain`: if most of the large torques are cut, the delivered torque is a smaller share of the logged
+/// one. Distinguished by the same motion at half the speed, which stays within the limits.
 effect torque_saturation(j) {
     /// Share of the excess that is not delivered.
     linear share >= 0;

@@ -278,7 +278,7 @@ impl Diagnostics {
         if let Some(others) = self.entries.len().checked_sub(MOST_SHOWN + 1) {
             let others = others + 1;
             let mistake = if others == 1 { "mistake" } else { "mistakes" };
-            mistakes.push(format!("{others} more {mistake}: mend those above first"));
+            mistakes.push(format!("{others} more {mistake}: fix those above first"));
         }
         mistakes.join("\n\n")
     }

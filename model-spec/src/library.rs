@@ -101,7 +101,7 @@ mod tests {
             );
             let confusions = effect.confusions().unwrap_or_else(|paragraph| {
                 panic!(
-                    "{}: write \"Confused with `a`, `b`: why. Parted by what.\", not \"{paragraph}\"",
+                    "{}: write \"Confused with `a`, `b`: why. Distinguished by what.\", not \"{paragraph}\"",
                     effect.name
                 )
             });

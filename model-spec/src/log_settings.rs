@@ -123,7 +123,7 @@ pub fn log_column_unit(
 fn parse(text: &str, joints: Option<usize>) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
     if text.len() > LARGEST {
         let error = Diagnostic::in_text(0..0, "the file is no file of log settings: too large", "");
-        let help = format!("write what a `log` block says, in at most {LARGEST} bytes");
+        let help = format!("write only the entries of a `log` block, in at most {LARGEST} bytes");
         return Err(vec![error.help(help)]);
     }
     let document = DeTable::parse(text).map_err(|error| {
@@ -160,7 +160,7 @@ impl Reader<'_> {
         let mut channels = Vec::new();
         let mut is_there = false;
         if let Some(key) = above_log(table) {
-            let message = format!("`{}` stands under no `[log]`", key.get_ref());
+            let message = format!("`{}` is not under `[log]`", key.get_ref());
             let error = Diagnostic::in_text(key.span(), message, "a channel of logs");
             let help = "put `[log]` on a line of its own above the channels";
             self.errors.push(error.help(help));
@@ -186,7 +186,7 @@ impl Reader<'_> {
             }
         }
         if !is_there && self.errors.is_empty() {
-            let error = Diagnostic::in_text(0..0, "the file says nothing of logs", "");
+            let error = Diagnostic::in_text(0..0, "the file has no log settings", "");
             let help = format!("write `[log]`, and below it columns as {FORMS}");
             self.errors.push(error.help(help));
         }
@@ -340,7 +340,7 @@ impl Reader<'_> {
                 kind(value.get_ref())
             );
             let error = Diagnostic::in_text(value.span(), message, "");
-            let help = format!("write it in quotes, as the log's header has it: {FORMS}");
+            let help = format!("write it in quotes, as in the log's header: {FORMS}");
             self.errors.push(error.help(help));
             return None;
         };
@@ -361,7 +361,7 @@ impl Reader<'_> {
             other => {
                 let message = format!("expected a unit, found {}", kind(other));
                 let error = Diagnostic::in_text(place, message, "");
-                let help = "write what a one in the column is worth, such as `unit = \"deg\"` or `unit = \"360 deg/4096\"`";
+                let help = "write the value of 1 in the column, such as `unit = \"deg\"` or `unit = \"360 deg/4096\"`";
                 self.errors.push(error.help(help));
                 return None;
             }

@@ -151,7 +151,7 @@ fn the_references_file_is_the_references_block() {
 
     let readme = include_str!("../../README.md");
     let (_, own) = readme
-        .split_once("beside the log says what is where")
+        .split_once("in a `robot-model.toml` beside the log")
         .expect("a section");
     let arm = SPEC.replace("LOG", "").replace(
         "prismatic { a = 0; alpha = 90 deg; theta = 0; actuator_gain = 42 N/A; }",

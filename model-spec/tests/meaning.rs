@@ -272,8 +272,8 @@ fn a_derive_builds_the_same_tree_from_tokens() {
     let errors = check(&ast, "lib.rs").unwrap_err();
     assert_eq!(
         errors[0].to_syn_error().to_string(),
-        "the robot does not say how its frames are written\n\
-         help: write `convention = standard_dh;`, `modified_dh` or `origin`; there is no default"
+        "the robot does not define its frame convention\nhelp: write `convention = standard_dh;`, `modified_dh` or `origin`; there is no \
+         default"
     );
 }
 
@@ -282,7 +282,9 @@ fn a_derive_builds_the_same_tree_from_tokens() {
 fn a_power_behind_a_unit_is_the_units() {
     let text = include_str!("../../tests/specs/pass/units.robot");
     let model = load("units.robot", text).unwrap_or_else(|errors| panic!("{errors}"));
-    let energies = model.energies().expect("the robot says its energies");
+    let energies = model
+        .energies()
+        .expect("the robot is defined by its energies");
     let (x, inertia, stiffness) = (0.7_f64, 0.3, 0.11);
     let value = energies.potential.number(&|leaf| match leaf {
         EnergyLeaf::Coordinate(0) => Some(x),

@@ -345,13 +345,13 @@ fn the_filtered_form_has_what_is_constant() {
         .unwrap_err();
     assert_eq!(
         refusal.to_string(),
-        "elbow.robot:1: `joint_elasticity` has no filtered form: it moves a link by what changes along a motion; identify \
-         with `--form acceleration`, or take the effect out"
+        "elbow.robot:1: `joint_elasticity` has no filtered form: it displaces a link depending on the motion; identify with `--form \
+         acceleration`, or take the effect out"
     );
     let refusal = soft.check_instantaneous().unwrap_err().to_string();
     assert!(
         refusal.starts_with(
-            "elbow.robot:1: `joint_elasticity` moves a link by what changes along a motion, so"
+            "elbow.robot:1: `joint_elasticity` displaces a link depending on the motion, so"
         ),
         "{refusal}"
     );

@@ -112,7 +112,7 @@ fn an_effect_that_nothing_wakes_is_kept_and_told() {
     assert!(names(&compiled).contains(&"a.asleep.f"));
     let remarks = compiled.base.remarks(&compiled.standard);
     assert!(
-        remarks[0].contains("`a.asleep.f` was zero at every state"),
+        remarks[0].contains("`a.asleep.f` was zero at every tested state"),
         "{remarks:?}"
     );
 }

@@ -141,7 +141,7 @@ fn what_acts_on_joints_is_written() {
     let energies = specs::named("pass/phantom").model();
     let refused = urdf(&energies, &written).expect_err("it has no links");
     assert!(
-        refused.to_string().contains("says its energies"),
+        refused.to_string().contains("is defined by its energies"),
         "{refused}"
     );
     assert_eq!(mjcf(&energies, &written), Err(refused));

@@ -187,8 +187,7 @@ fn a_column_that_an_effect_reads_must_be_there() {
     let refused = Identify::default().fit(&arm, &[log.clone()]).unwrap_err();
     assert_eq!(
         refused.to_string(),
-        "machine: the log has no column `temperature`, which a declared effect of the spec reads; log it, or take the \
-         effect out of the spec"
+        "machine: the log has no column `temperature`, which a declared effect of the spec reads; log it, or remove the effect from the spec"
     );
     log.extra.push(Channel {
         name: "temperature".to_owned(),

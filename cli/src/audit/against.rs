@@ -62,11 +62,11 @@ pub(super) fn check(compiled: &Compiled, sources: &[Source; 2]) -> Check {
     let (untold, pairs): (Vec<Pair<'_>>, Vec<Pair<'_>>) = base.chain(shapes).partition(is_untold);
     let findings = pairs.iter().filter(|pair| pair.is_apart());
     let mut scope = format!(
-        "{} of the one source beside those of the other",
+        "{} compared between both sources",
         counted(pairs.len(), "parameter")
     );
     if !untold.is_empty() {
-        scope = format!("{scope}, without {} that no log told", untold.len());
+        scope = format!("{scope}, without {} not identified", untold.len());
     }
     Check::new("against", scope, findings.map(Pair::finding).collect())
 }
@@ -94,14 +94,14 @@ impl Pair<'_> {
         let [one, other] = self.values.map(rounded);
         let apart = self.apart();
         let far = if self.std > 0.0 {
-            format!("{:.1} deviations apart", apart.abs() / self.std)
+            format!("{:.1} standard deviations apart", apart.abs() / self.std)
         } else {
             let size = self.sizes[0].max(self.sizes[1]);
             let of = if self.is_shape { "it" } else { "its parts" };
             format!("{:.1} % of {of}", 100.0 * apart.abs() / size)
         };
         let name = self.name;
-        let sentence = format!("`{name}` is {one}, and {other} there: {far}");
+        let sentence = format!("`{name}` is {one}, in the other source {other}: {far}");
         let numbers = [
             ("value", self.values[0]),
             ("other", self.values[1]),

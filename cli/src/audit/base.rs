@@ -58,7 +58,7 @@ pub(super) fn check(compiled: &Compiled, sums: &Sums) -> Result<Check, Error> {
     let independent = rank(shares.clone());
     findings.extend(too_few_or_many(compiled, &shares, independent));
     let scope = format!(
-        "{} of standard parameters, beside the {} of the equations",
+        "{} of standard parameters, compared with the {} of the equations",
         counted(sums.len(), "sum"),
         counted(base.kept.len(), "base parameter")
     );
@@ -123,7 +123,7 @@ fn other_factors(compiled: &Compiled, name: &str, off: &[Off]) -> Finding {
     });
     let said: Vec<String> = said.collect();
     let sentence = format!(
-        "torques do not tell `{name}`: with its other parts goes {}",
+        "torques do not determine `{name}`: its other parts need {}",
         said.join(", ")
     );
     let numbers = off.iter().flat_map(|off| {
@@ -147,15 +147,15 @@ fn too_few_or_many(
         let lacking: Vec<&str> = lacking.map(|place| base.names[place].as_str()).collect();
         let none = match lacking[..] {
             [] => String::new(),
-            _ => format!(": none has a part of {}", names(&lacking)),
+            _ => format!(": none contains {}", names(&lacking)),
         };
         format!(
-            "{independent} of the sums are independent, and torques tell {}{none}",
+            "{independent} of the sums are independent, but torques determine {}{none}",
             counted(base.kept.len(), "base parameter")
         )
     } else if independent < shares.nrows() {
         format!(
-            "there are {} sums, of which {independent} are independent: the others are sums of these",
+            "only {independent} of the {} sums are independent: the others are combinations of these",
             shares.nrows()
         )
     } else {

@@ -37,7 +37,8 @@ pub(super) fn check(
     let chain = compiled.model.chain()?;
     let count = counted(chain.links.len(), "link");
     let Some(standard) = &values.standard else {
-        let scope = format!("{count}, by base parameters: whether some bodies have them");
+        let scope =
+            format!("{count}, by base parameters: whether physically possible links have them");
         let widths = Widths::new(compiled, &values.beta, deviations);
         return Some(of_base(compiled, &values.beta, &widths, scope));
     };
@@ -74,7 +75,7 @@ fn impossible(inertial: &Inertial) -> Option<(String, &'static str, f64, &'stati
     let first = inertial.first_moments;
     let Some(moments) = inertial.second_moments() else {
         let is_nothing = first.iter().chain(&inertial.inertia).all(|x| *x == 0.0);
-        let said = "no mass, and moments of mass all the same".to_owned();
+        let said = "no mass, but nonzero moments of mass".to_owned();
         return (!is_nothing).then_some((said, "mass", mass, "kg"));
     };
     let spread = moments.symmetric_eigenvalues();
@@ -88,10 +89,10 @@ fn impossible(inertial: &Inertial) -> Option<(String, &'static str, f64, &'stati
     // `S` is positive where each moment of inertia is positive and at most the sum of the other two.
     let far = mass * away * away;
     let why = if [ixx, iyy, izz].iter().any(|moment| *moment < 0.0) {
-        "a moment of inertia is below zero".to_owned()
+        "a moment of inertia is negative".to_owned()
     } else if far > 0.5 * (ixx + iyy + izz) {
         format!(
-            "its center of mass would be {away:.3} m from the frame's origin, too far for its moments of inertia"
+            "its center of mass is {away:.3} m from the frame's origin, too far for its moments of inertia"
         )
     } else {
         "about the center of mass a moment of inertia exceeds the sum of the other two".to_owned()
@@ -144,20 +145,23 @@ fn judged(scope: String, found: Option<(f64, Vec<Moved>)>) -> Check {
         return Check::undecided(
             "bodies",
             scope,
-            "the search for an arm whose links have bodies came to no end near these parameters; `identify --method physical` on the logs \
-             decides, or values of standard parameters do",
+            "the search for a physically possible arm near these parameters did not converge; run `identify --method physical` on the logs, \
+             or give values of standard parameters",
         );
     };
     let is_failed = |moved: &Moved| moved.widths > wider * most(moved);
     if missed.iter().any(is_failed) {
         missed.retain(is_failed);
-        let mut findings = listed(&missed, "of arms whose links have bodies the nearest has ");
-        let way_out = "`identify --method physical` asks the logs for the nearest arm that can be";
+        let mut findings = listed(
+            &missed,
+            "not physically possible; the nearest possible arm has ",
+        );
+        let way_out = "`identify --method physical` finds the possible arm that fits the logs best";
         findings.push((way_out.to_owned(), Vec::new()));
         return Check::new("bodies", scope, findings);
     }
     missed.retain(|moved| moved.has_deviation && moved.widths > OF_SEARCH);
-    let note = "within what is known, of arms whose links have bodies the nearest has ";
+    let note = "possible within standard deviations; the nearest possible arm has ";
     Check::noted("bodies", scope, listed(&missed, note))
 }
 
@@ -208,8 +212,8 @@ mod tests {
             moved(2.9, false),
         ]));
         assert_eq!(noted.passed, Some(true));
-        let said = "within what is known, of arms whose links have bodies the nearest has `a.mx` 0.0111001 in place of 0.0111000 \
-                    (1.9 standard deviations)";
+        let said = "possible within standard deviations; the nearest possible arm has `a.mx` 0.0111001 in place of 0.0111000 (1.9 standard \
+                    deviations)";
         assert_eq!(noted.findings, [said]);
         assert_eq!(noted.quantity("deviations", Some("a.mx")), Some(1.9));
         for missed in [moved(2.1, true), moved(3.1, false)] {

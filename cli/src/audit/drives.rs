@@ -30,7 +30,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
     });
     let findings = findings.collect();
     let scope =
-        "friction of joints that creep, and torques of the arm at rest in the workspace, beside torque limits"
+        "friction at creeping speed and static torques in the workspace, compared with torque limits"
             .to_owned();
     Some(Check::new("drives", scope, findings))
 }
@@ -38,7 +38,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
 fn held(joint: &Joint, hold: f64, most: f64) -> Finding {
     let (name, unit) = (&joint.name, Units::of(joint.kind).torque);
     let said = format!(
-        "joint `{name}` is held by {hold:.4} {unit} of friction, and its motor has {most:.4} {unit}: it would not move"
+        "joint `{name}` has {hold:.4} {unit} of friction, but its torque limit is {most:.4} {unit}: it cannot move"
     );
     let own = [("friction", hold), ("largest_torque", most)];
     let own = own.map(|(what, value)| Quantity::of(what, name, value, unit));
@@ -91,7 +91,7 @@ impl<'a> Rest<'a> {
             let (name, unit) = (&joint.name, Units::of(joint.kind).torque);
             let at: Vec<String> = pose.iter().map(|q| format!("{q:.4}")).collect();
             let said = format!(
-                "joint `{name}` takes {torque:.4} {unit} to stand at q = [{}], and its motor has {most:.4} {unit}: it would not lift the arm there",
+                "joint `{name}` needs {torque:.4} {unit} at rest at q = [{}], but its torque limit is {most:.4} {unit}: it cannot hold the arm there",
                 at.join(", ")
             );
             let own = [("at_rest", torque), ("largest_torque", most)];

@@ -58,7 +58,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
         if let Some(Gain { share, power }) = worst(&alone) {
             let (name, from) = (&declared.name, share * fastest[joint]);
             let said = format!(
-                "joint `{name}` is driven by its effects from {from:.3} {} on: up to {power:.3e} W there and back",
+                "effects of joint `{name}` add energy from {from:.3} {} on: up to {power:.3e} W, both directions together",
                 unit(joint)
             );
             let own = [
@@ -81,7 +81,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
                 .map(|speed| format!("{:.3}", share * speed))
                 .collect();
             let said = format!(
-                "joints drive each other where they move together at [{}]: up to {power:.3e} W there and back",
+                "effects add energy when joints move together at [{}]: up to {power:.3e} W, both directions together",
                 speeds.join(", ")
             );
             let each = direction.iter().enumerate().map(|(joint, speed)| {

@@ -26,16 +26,16 @@ pub(super) fn check(compiled: &Compiled, parameters: &[f64], shapes: &[f64]) -> 
     let rounding = ROUNDING * inertia.eigenvalues(&pose).1.abs();
     let at: Vec<String> = pose.iter().map(|q| format!("{q:.4}")).collect();
     let found = format!("{least:.4e} at q = [{}]", at.join(", "));
-    let scope = format!("least eigenvalue of the inertia that was found in the workspace: {found}");
+    let scope = format!("least eigenvalue of the mass matrix found in the workspace: {found}");
     let findings = if least > rounding {
         Vec::new()
     } else if least >= -rounding {
         let at = at.join(", ");
-        let said = format!("the inertia is singular: nothing resists some motion at q = [{at}]");
+        let said = format!("the mass matrix is singular: some motion has no inertia at q = [{at}]");
         vec![(said, Vec::new())]
     } else {
         let said = format!(
-            "the inertia is not positive definite: least eigenvalue {found}; an arm there would run away from what pushes it"
+            "the mass matrix is not positive definite: least eigenvalue {found}; a simulated arm would accelerate against the applied torque"
         );
         vec![(said, Vec::new())]
     };

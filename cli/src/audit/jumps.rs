@@ -35,7 +35,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
             );
         }
     }
-    let scope = "effects over the speed of each joint alone, away from rest".to_owned();
+    let scope = "effects as functions of each joint's speed, away from rest".to_owned();
     Check::new("jumps", scope, findings)
 }
 
@@ -50,7 +50,7 @@ impl Jump {
         let Self { speed, by } = *self;
         let (torque, velocity) = (units.torque, units.velocity);
         let said = format!(
-            "effects of joint `{joint}` jump by {by:.3e} {torque} at {speed:.4} {velocity}: what compensates for them kicks there"
+            "effects of joint `{joint}` jump by {by:.3e} {torque} at {speed:.4} {velocity}: a controller that compensates for them jumps there too"
         );
         let own = [
             Quantity::of("jump", joint, by, torque),

@@ -73,15 +73,15 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
         } = Units::of(joints[joint].kind);
         let name = &joints[joint].name;
         let said = format!(
-            "joint `{name}` is driven by what its effects remember: over and over {way:.2e} {length} at {:.3} {per} and as far at {speed:.3} {per} \
-             they give {gain:.2e} J a turn",
+            "effects with memory add energy to joint `{name}`: a cycle of {way:.2e} {length} at {:.3} {per} and as far at {speed:.3} {per} \
+             gains {gain:.2e} J",
             speed / SLOWER as f64
         );
         Some((said, vec![Quantity::of("work", name, gain, "J")]))
     });
     let findings = findings.collect();
     let scope = format!(
-        "ways at a slow and a fast speed in turns, up to {FIRST_WAY:.0e} .. {:.0e} rad or m each",
+        "cycles of a slow and a fast stroke, up to {FIRST_WAY:.0e} .. {:.0e} rad or m each",
         FIRST_WAY * FURTHER.powi(11)
     );
     Some(Check::new("memory", scope, findings))

@@ -26,9 +26,9 @@ use crate::{Error, json, spec};
 use against::Source;
 pub use base::Sums;
 
-/// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, torques of motors, rank.
+/// Check whether parameters are physically possible: bodies, signs, mass matrix in the workspace, friction over speed, torque limits, rank.
 ///
-/// Exit code 1 where a check fails; the report is written all the same.
+/// Exit code 1 if a check fails; the report is written anyway.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model audit arm.robot --parameters fit.json
@@ -40,11 +40,11 @@ pub(crate) struct Audit {
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// Base parameters of another source, `{"NAME": {"STANDARD PARAMETER": FACTOR, ..}, ..}`: whether they are base parameters of this
-    /// arm. Alone it needs no values of parameters, and looks at nothing else.
+    /// Base parameters of another source, `{"NAME": {"STANDARD PARAMETER": FACTOR, ..}, ..}`: check that they are base parameters of this
+    /// arm. Alone it needs no parameter values, and checks nothing else.
     #[arg(long, value_name = "FILE.json")]
     base: Option<PathBuf>,
-    /// Parameters of another source, in a form of `--parameters`: whether they are of the same arm.
+    /// Parameters of another source, in a form of `--parameters`: check that both agree.
     #[arg(long, value_name = "FILE.json")]
     against: Option<PathBuf>,
     /// Write the result as JSON.
@@ -282,7 +282,7 @@ fn values_of(compiled: &Compiled, file: Option<&Path>) -> Result<(Values, String
             Beside::Nothing => {}
             Beside::Same(standard) => values.standard = Some(standard),
             Beside::Other => output::say(&format!(
-                "warning: {source}: its standard parameters do not make its base parameters in this arm, and are left out"
+                "warning: {source}: its standard parameters contradict its base parameters for this arm, and are ignored"
             )),
         }
     }
@@ -342,7 +342,7 @@ fn rank(compiled: &Compiled) -> Check {
     let regrouped = known - base.unidentifiable.len() - base.kept.len();
     if regrouped > 0 {
         findings.push(format!(
-            "{} only in sums with others: `robot-model show --what base-parameters` has them",
+            "{} only in sums with others: see `robot-model show --what base-parameters`",
             counted(regrouped, "parameter")
         ));
     }

@@ -17,11 +17,12 @@ use super::figure;
 use super::table::Table;
 use said::{commanded_summary, note_commanded, note_voltage, voltage_summary};
 
-/// The back electromotive force of a motor, and its resistance where its voltage is logged.
+/// Identify a motor's back-EMF constant, and its resistance if its voltage is logged.
 ///
-/// With `--voltage`: `v = R i + k w + v0` by least squares, or by instruments where current or velocity are noisy. Without: the voltage was commanded between constants, and `k` is the factor that makes `u + k w` constant in pieces, where
-/// `u` is `--current`: amperes, or the voltage across a known resistance. The winding's inductance is in neither but by `--time-constant`. Velocities of `--position` are means over five samples, as are
-/// the others then.
+/// With `--voltage`: `v = R i + k w + v0` by least squares, or by instrumental variables if current or velocity are noisy. Without it: the
+/// commanded voltage switches between constants, and `k` is the factor that makes `u + k w` piecewise constant, where `u` is
+/// `--current`: amperes, or the voltage across a known resistance. The winding's inductance is ignored without `--time-constant`. With
+/// `--position` all channels are means over five samples.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model calibrate back-emf log.csv --current i --velocity w --voltage v
@@ -35,7 +36,7 @@ pub(crate) struct BackEmf {
     /// The column of the velocity, rad/s.
     #[arg(long, value_name = "COLUMN", required_unless_present = "position")]
     velocity: Option<String>,
-    /// The column of the position, rad, in place of a velocity.
+    /// The column of the position, rad, instead of a velocity.
     #[arg(long, value_name = "COLUMN", conflicts_with = "velocity")]
     position: Option<String>,
     /// The column of the voltage at the motor's terminals, V.
@@ -44,7 +45,7 @@ pub(crate) struct BackEmf {
     /// The column of time, s.
     #[arg(long, value_name = "COLUMN", default_value = "time")]
     time: String,
-    /// Electric time constant of the winding, L/R, s; without it the inductance is left out.
+    /// Electric time constant of the winding, L/R, s; without it the inductance is ignored.
     #[arg(
         long,
         value_name = "S",

@@ -13,7 +13,7 @@ use crate::Error;
 use back_emf::BackEmf;
 use static_gain::Static;
 
-/// Find what stands between a motor's current and a joint's torque, from tables of measurements.
+/// Identify the torque per current of a joint, or the back-EMF of its motor, from measured tables.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model calibrate static blocked.csv --current i --torque tau

@@ -16,10 +16,10 @@ use super::table::Table;
 use super::words::{measured, rounded};
 use crate::output::significant;
 
-/// The gain from current to torque, from a blocked arm at a sequence of currents.
+/// Identify the gain from current to torque, from a blocked arm at a sequence of currents.
 ///
-/// The arm is held level, and the torque, or the force at a known distance from the joint, is read at each current. Rows stand in the
-/// order in which they were measured: where currents rise and fall, the difference of both ways is the friction of the gear, twice.
+/// The arm is held level, and the torque, or the force at a known distance from the joint, is measured at each current. Rows are in the
+/// order of measurement: if currents rise and fall, the difference of both directions is twice the gear friction.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model calibrate static blocked.csv --current i --torque tau
@@ -33,7 +33,7 @@ pub(crate) struct Static {
     /// The column of torques, N m.
     #[arg(long, value_name = "COLUMN", required_unless_present = "force")]
     torque: Option<String>,
-    /// The column of forces across the arm, N, in place of torques.
+    /// The column of forces perpendicular to the arm, N, instead of torques.
     #[arg(
         long,
         value_name = "COLUMN",
@@ -41,7 +41,7 @@ pub(crate) struct Static {
         conflicts_with = "torque"
     )]
     force: Option<String>,
-    /// How far from the joint's axis the forces were measured, m.
+    /// Distance of the force sensor from the joint's axis, m.
     #[arg(
         long,
         value_name = "M",
@@ -55,7 +55,7 @@ pub(crate) struct Static {
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// The points, the line, and the band that holds the line with 95 %.
+    /// Draw the points, the line and its 95 % confidence band.
     #[arg(long, value_name = "FILE.svg")]
     figure: Option<PathBuf>,
 }
@@ -93,7 +93,7 @@ impl Static {
         let arm = self.arm.unwrap_or(1.0);
         if !arm.is_finite() || arm <= 0.0 {
             return Err(Error::Argument(format!(
-                "--arm {arm}: a distance in m that is above zero"
+                "--arm {arm}: write a positive distance in m"
             )));
         }
         let settings = &self.log_settings;
@@ -114,7 +114,7 @@ impl Static {
         let [low, high] = line.gain.interval;
         if low <= 0.0 && high >= 0.0 {
             output::say(
-                "note: the gain is not told from zero: are these the columns of one experiment?",
+                "note: the gain cannot be distinguished from zero: are these the columns of one experiment?",
             );
         }
         output::print(&summary(&line))
@@ -173,7 +173,7 @@ fn summary(line: &StaticGain) -> String {
         hysteresis(line),
         spec(line).map_or_else(
             || {
-                "no gain for the spec, as the slope of no line is one: leave out rows with currents at which the drive is at its limit, and \
+                "no gain for the spec, as the points are not on a line: leave out rows with currents at which the drive saturates, and \
                  calibrate again"
                     .to_owned()
             },
@@ -184,36 +184,35 @@ fn summary(line: &StaticGain) -> String {
 
 fn bend(line: &StaticGain) -> String {
     match &line.curvature {
-        None => "not told: it takes three currents and more points than terms".to_owned(),
+        None => "unknown: needs three currents and more points than terms".to_owned(),
         Some(term) if term.is_told() => format!(
-            "NO LINE: a term {}, by chance with p = {:.2e}; is something in it saturated?",
+            "NOT LINEAR: a term {}, p = {:.2e} by chance; does the drive saturate?",
             measured(&term.value, "N m/A^2"),
             term.p
         ),
-        Some(term) => format!("none is told, p = {:.2}", term.p),
+        Some(term) => format!("not significant, p = {:.2}", term.p),
     }
 }
 
 fn hysteresis(line: &StaticGain) -> String {
     let Some(found) = &line.hysteresis else {
-        return "not told: it takes currents that rise and fall, in the order of the rows"
-            .to_owned();
+        return "unknown: needs currents that rise and fall, in the order of the rows".to_owned();
     };
     let term = &found.difference;
     let of = format!("{} rising and {} falling", found.rising, found.falling);
     if !term.is_told() {
-        return format!("none is told of {of}, p = {:.2}", term.p);
+        return format!("not significant for {of}, p = {:.2}", term.p);
     }
     let what = if found.friction > 0.0 {
         let friction = significant(found.friction, 3);
         format!("half of it, {friction} N m, is friction")
     } else {
-        "friction has the other sign: are the rows in the order in which they were measured?"
+        "friction would have the opposite sign: are the rows in the order of measurement?"
             .to_owned()
     };
     format!(
         "falling minus rising {}, of {of}, p = {:.2e}: {what}\n\
-         gain        {}, beside a constant for each way",
+         gain        {}, with a constant for each direction",
         measured(&term.value, "N m"),
         term.p,
         measured(&found.gain, "N m/A"),

@@ -118,7 +118,7 @@ fn places(path: &Path, header: &[String], wanted: &[Wanted]) -> Result<Vec<usize
         if places.next().is_some() {
             return Err(refused(
                 &place_of(path, 1),
-                &format!("column `{name}` stands there twice; give one of them another name"),
+                &format!("column `{name}` appears twice; rename one of them"),
             ));
         }
         Ok(found)
@@ -135,7 +135,7 @@ fn unreadable(path: &Path, error: &csv::Error) -> Error {
         } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
             let reason = format!(
-                "the row has {len} fields, the header has {expected_len}; give every row one field a column"
+                "the row has {len} fields, the header has {expected_len}; give every row one field per column"
             );
             refused(&place_of(path, line), &reason)
         }

@@ -40,7 +40,7 @@ const EFFECTS: [(&str, f64); 9] = [
 const WORN: (&str, f64) = ("elbow.stribeck.fs", 2.2);
 const WORN_SPEED: f64 = 0.15;
 
-/// The whole loop on a built-in arm, without arguments or files: identify, trace, amend, recompile, compare.
+/// Run the whole loop on a built-in arm, without files: identify, trace, amend, recompile, compare.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model demo

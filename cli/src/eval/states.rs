@@ -50,7 +50,7 @@ pub(super) fn read(path: &Path, compiled: &Compiled) -> Result<Vec<State>, Error
         .any(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)));
     let written = json::read(path)?;
     if written.is_array() {
-        let reason = "the list of states has a name: write `{\"states\": [..]}`";
+        let reason = "the list of states needs its name: write `{\"states\": [..]}`";
         return Err(Error::json(path, &reason));
     }
     let States { states } = json::typed(path, written, FORM)?;
@@ -79,7 +79,7 @@ pub(super) fn read(path: &Path, compiled: &Compiled) -> Result<Vec<State>, Error
         }
         let fault = if reads_torque && state.measured_torque.len() != dof {
             Some(format!(
-                "`measured_torque` has {}, a declared effect reads that of {}",
+                "`measured_torque` has {}, but a declared effect reads that of {}",
                 counted(state.measured_torque.len(), "value"),
                 counted(dof, "joint")
             ))

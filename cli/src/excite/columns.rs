@@ -19,7 +19,7 @@ pub(super) fn basis(
     let count = columns.columns.len();
     if names.len() != count {
         return Err(Error::Argument(format!(
-            "--columns names {}, the regressor has {}: give as many as that",
+            "--columns names {}, the regressor has {}: give as many",
             counted(names.len(), "parameter"),
             counted(count, "column")
         )));
@@ -35,7 +35,9 @@ pub(super) fn basis(
     }
     let matrix = DMatrix::from_fn(count, count, |row, column| {
         let DesignColumn::Parameter(base) = columns.columns[row] else {
-            unreachable!("`--columns` is not of two effects, which alone have columns of shapes");
+            unreachable!(
+                "`--columns` does not work with `--separate`, whose effects have columns of shapes"
+            );
         };
         let mut combination = compiled.base.combinations[base].iter();
         let part = combination.find(|part| part.0 == chosen[column]);
@@ -44,7 +46,7 @@ pub(super) fn basis(
     let singular = matrix.singular_values();
     if singular.min() <= APART * singular.max() {
         return Err(Error::Argument(
-            "--columns: no motion tells these parameters apart; choose one of each base parameter's combination"
+            "--columns: no motion separates these parameters; choose one from each base parameter's combination"
                 .to_owned(),
         ));
     }

@@ -14,7 +14,7 @@ pub(super) enum CriterionArgument {
     Condition,
     /// Its smallest singular value.
     EOptimal,
-    /// The lengths of its columns alone: does not see columns that look alike.
+    /// Hadamard's bound from the lengths of its columns; ignores dependence between columns.
     Hadamard,
 }
 
@@ -26,11 +26,11 @@ impl CriterionArgument {
             _ if !unit_columns => Ok(Scaling::Raw),
             Self::Condition | Self::EOptimal => Ok(Scaling::UnitLength),
             Self::DOptimal => refused(
-                "`--unit-columns` are of the condition number and the smallest singular value; add `--criterion condition` or \
+                "`--unit-columns` belongs to the condition number and the smallest singular value; add `--criterion condition` or \
                  `--criterion e-optimal`",
             ),
             Self::Hadamard => refused(
-                "Hadamard's bound of columns of unit length is the same for every motion; leave `--unit-columns` out",
+                "Hadamard's bound of columns of unit length is the same for every motion; remove `--unit-columns`",
             ),
         }
     }

@@ -16,12 +16,12 @@ pub(super) fn of(model: &Model, acceleration: Option<&[f64]>) -> Result<Limits, 
     let is_limited = |joint: &Joint| joint.limits.acceleration.is_some();
     if given.iter().flatten().any(|x| x.is_nan() || *x <= 0.0) {
         return Err(Error::Argument(
-            "--acceleration: a limit is positive".to_owned(),
+            "--acceleration: a limit must be positive".to_owned(),
         ));
     }
     if given.is_some() && joints.iter().all(is_limited) {
         return Err(Error::Argument(format!(
-            "--acceleration is for joints whose spec says none, and {} says one for each; change it there",
+            "--acceleration is for joints without a limit in the spec, but {} has one for each; change it there",
             model.source
         )));
     }
@@ -29,7 +29,7 @@ pub(super) fn of(model: &Model, acceleration: Option<&[f64]>) -> Result<Limits, 
         let own = &joint.limits;
         if joint.kind == JointKind::Prismatic && own.position.is_none() {
             return Err(Error::Argument(format!(
-                "{}: joint `{}` slides without position limits; write `position = .. m .. .. m` into its spec",
+                "{}: prismatic joint `{}` has no position limits; write `position = .. m .. .. m` into its spec",
                 model.source, joint.name
             )));
         }
@@ -49,7 +49,7 @@ fn per_joint(what: &str, given: Option<&[f64]>, dof: usize) -> Result<Option<Vec
         Some(&[one]) => Ok(Some(vec![one; dof])),
         Some(each) if each.len() == dof => Ok(Some(each.to_vec())),
         Some(each) => Err(Error::Argument(format!(
-            "{what} has {} numbers, the arm {dof} joints: give one for all, or one a joint",
+            "{what} has {} numbers, the arm {dof} joints: give one for all, or one per joint",
             each.len()
         ))),
     }

@@ -44,14 +44,14 @@ pub(crate) struct Excite {
     /// The motion: `time,q1..qn,dq1..dqn,ddq1..ddqn`, one period.
     #[arg(long, value_name = "TRAJ.csv")]
     out: PathBuf,
-    /// What is wanted of the motion.
+    /// The criterion to optimize.
     #[arg(long, value_enum, default_value_t, conflicts_with = "separate")]
     criterion: CriterionArgument,
-    /// Count columns of unit length: for `--criterion condition` and `e-optimal`.
+    /// Scale columns to unit length: for `--criterion condition` and `e-optimal`.
     #[arg(long, conflicts_with = "separate")]
     unit_columns: bool,
-    /// Count columns of these standard parameters, as many as there are base parameters: the condition number and the smallest
-    /// singular value depend on the choice.
+    /// Use the columns of these standard parameters, as many as there are base parameters: condition number and smallest singular value
+    /// depend on the choice.
     #[arg(
         long,
         value_name = "NAME,..",
@@ -67,7 +67,7 @@ pub(crate) struct Excite {
         default_value_t = 10.0
     )]
     period: f64,
-    /// Waves a joint.
+    /// Harmonics per joint.
     #[arg(
         long,
         value_name = "N",
@@ -78,7 +78,7 @@ pub(crate) struct Excite {
     /// How the motion begins and ends.
     #[arg(long, value_enum, default_value_t)]
     ends: EndsArgument,
-    /// Where it begins and ends, rad or m: `0,0.3,-1.2`.
+    /// Pose at begin and end, rad or m: `0,0.3,-1.2`.
     #[arg(
         long,
         value_name = "Q1,..",
@@ -87,11 +87,11 @@ pub(crate) struct Excite {
         conflicts_with = "ends"
     )]
     pose: Option<Vec<f64>>,
-    /// Values by name, for torque limits and for what depends on the arm's own torque: friction of the load, gains, offsets of
-    /// encoders; what the spec says where it is not given.
+    /// Values by name, for torque limits and effects that depend on the arm's torque (load-dependent friction, gains, encoder offsets);
+    /// without it the spec's values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// Standard deviation of each joint's torque noise, N m or N; in proportion to the torque limits where all joints have one, else 1.
+    /// Standard deviation of each joint's torque noise, N m or N; default: proportional to the torque limits if all joints have one, else 1.
     #[arg(
         long,
         value_name = "S1,..",
@@ -99,7 +99,7 @@ pub(crate) struct Excite {
         value_delimiter = ','
     )]
     noise: Option<Vec<f64>>,
-    /// Limits of accelerations, for joints whose spec gives none, rad/s^2 or m/s^2: one for all, or one a joint.
+    /// Acceleration limits for joints without one in the spec, rad/s^2 or m/s^2: one for all, or one per joint.
     #[arg(
         long,
         value_name = "A1,..",
@@ -107,19 +107,19 @@ pub(crate) struct Excite {
         value_delimiter = ','
     )]
     acceleration: Option<Vec<f64>>,
-    /// Balls on links, planes and the distance between balls, which the arm keeps.
+    /// Balls on links, with planes, a box and a least distance between balls that the motion must keep.
     #[arg(long, value_name = "ROOM.json")]
     room: Option<PathBuf>,
-    /// An effect that is to be told from another, with what it is expected to be worth: `stribeck(vs = 0.1) on elbow: fs = 2`.
+    /// An effect to distinguish from another, with its expected values: `stribeck(vs = 0.1) on elbow: fs = 2`.
     #[arg(long, value_name = "EFFECT", requires = "from")]
     separate: Option<String>,
-    /// The other one.
+    /// The other effect.
     #[arg(long, value_name = "EFFECT", requires = "separate")]
     from: Option<String>,
-    /// Random motions to start from.
+    /// Number of random start motions.
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     starts: u32,
-    /// Of the random motions.
+    /// Seed of the random motions.
     #[arg(
         long,
         value_name = "N",
@@ -127,7 +127,7 @@ pub(crate) struct Excite {
         default_value_t = 1
     )]
     seed: u64,
-    /// Stop after so many seconds with the best motion so far.
+    /// Stop after this many seconds with the best motion so far.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     budget: Option<f64>,
     /// Rate of the CSV file, Hz.
@@ -138,20 +138,20 @@ pub(crate) struct Excite {
         default_value_t = 1000.0
     )]
     rate: f64,
-    /// The coefficients of the harmonics.
+    /// Write the coefficients of the harmonics.
     #[arg(long, value_name = "FILE.json")]
     coefficients: Option<PathBuf>,
-    /// The motion drawn, with its limits.
+    /// Draw the motion with its limits.
     #[arg(long, value_name = "FILE.svg")]
     figure: Option<PathBuf>,
-    /// What the motion is worth.
+    /// Write the criterion values of the motion as JSON.
     #[arg(long, value_name = "FILE.json")]
     json: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 enum EndsArgument {
-    /// At rest, at a pose that is chosen.
+    /// At rest, at an optimized pose.
     #[default]
     Rest,
     /// In motion.
@@ -178,13 +178,13 @@ impl Excite {
         let is_long = self.period.is_finite() && self.rate * self.period > 1e7;
         if self.rate.is_nan() || self.rate <= 0.0 || is_long {
             return Err(Error::Argument(format!(
-                "--rate {}: a rate in Hz, for at most ten million samples",
+                "--rate {}: write a rate in Hz, for at most ten million samples",
                 self.rate
             )));
         }
         if let Some(seconds) = self.budget.filter(|s| !(*s > 0.0 && s.is_finite())) {
             return Err(Error::Argument(format!(
-                "--budget {seconds}: a positive number of seconds"
+                "--budget {seconds}: write a positive number of seconds"
             )));
         }
         let progress = Progress::new();
@@ -200,7 +200,7 @@ impl Excite {
         let found = search(&request, self.budget, started, &progress);
         let design = found.map_err(|error| match &self.room {
             Some(room) => {
-                Error::Argument(format!("{error}; the room is that of {}", room.display()))
+                Error::Argument(format!("{error}; the room is given by {}", room.display()))
             }
             None => error,
         })?;

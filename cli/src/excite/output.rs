@@ -125,13 +125,13 @@ pub(super) fn summary(request: &Request, design: &Design) -> String {
     .expect(PUT);
     writeln!(
         text,
-        "ln det of a sample's information     {:.3}",
+        "ln det of information per sample     {:.3}",
         quality.log_det
     )
     .expect(PUT);
     writeln!(
         text,
-        "  by the columns' lengths alone      {:.3}",
+        "  from column lengths alone          {:.3}",
         quality.hadamard
     )
     .expect(PUT);
@@ -145,7 +145,8 @@ pub(super) fn summary(request: &Request, design: &Design) -> String {
         let [share, other] = shares.map(|share| 100.0 * share.sqrt());
         writeln!(
             text,
-            "what cannot be imitated, root mean square over the noise (`--noise`, else the torque limits, else 1): {:.3e} of the first ({share:.1} % of it), {:.3e} of the second ({other:.1} %)",
+            "part the rival cannot reproduce, RMS over the noise (`--noise`, else the torque limits, else 1): {:.3e} of the first \
+             ({share:.1} % of it), {:.3e} of the second ({other:.1} %)",
             first.sqrt(),
             second.sqrt()
         )

@@ -40,9 +40,7 @@ impl Excite {
             ));
         }
         if compiled.check_instantaneous().is_err() || compiled.delay().is_some() {
-            progress.note(
-                "note: what moves links along a motion, or makes torques late, is not designed for",
-            );
+            progress.note("note: the design ignores effects that displace links or delay torques");
         }
         let nominal = Nominal {
             beta: known.beta.clone(),
@@ -61,7 +59,7 @@ impl Excite {
             let left_out = columns.left_out.iter();
             let left_out: Vec<String> = left_out.map(|column| column.name(compiled)).collect();
             progress.note(&format!(
-                "note: not designed for {}: {} on more than the motion",
+                "note: the design ignores {}: {} on more than the motion",
                 names(&left_out.iter().map(String::as_str).collect::<Vec<_>>()),
                 if left_out.len() == 1 {
                     "it depends"
@@ -82,7 +80,7 @@ impl Excite {
         let followed = function(columns.function);
         if let Some(state) = followed.restless_state() {
             return Err(Error::Argument(format!(
-                "the state `{}` does not settle where a motion repeats: no motion is designed with its effect; take that out of the spec",
+                "the state `{}` does not become periodic when a motion repeats, so no motion can be designed; remove its effect from the spec",
                 compiled.model.states()[state]
             )));
         }
@@ -143,7 +141,7 @@ impl Excite {
         let missing: Vec<&str> = missing.filter(|name| !said.contains(name)).collect();
         if (is_limited || reads_load) && !missing.is_empty() {
             progress.note(&format!(
-                "note: torques are those of an arm without {}, which {} no value; give {} with `--parameters`",
+                "note: torques are computed without {}, which {} no value; give {} with `--parameters`",
                 names(&missing),
                 if missing.len() == 1 { "has" } else { "have" },
                 if missing.len() == 1 { "it" } else { "them" },

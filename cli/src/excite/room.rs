@@ -49,8 +49,8 @@ struct Plane {
 }
 
 /// How it is written.
-const FORM: &str = "write `{\"balls\": [{\"link\": .., \"center\": [x, y, z], \"radius\": ..}, ..], \"box\": {\"low\": [..], \"high\": [..]}, \
-    \"planes\": [{\"normal\": [..], \"offset\": ..}], \"apart\": ..}`, all but `balls` where it is wanted";
+const FORM: &str = "write `{\"balls\": [{\"link\": .., \"center\": [x, y, z], \"radius\": ..}, ..], \"box\": {\"low\": [..], \"high\": \
+                    [..]}, \"planes\": [{\"normal\": [..], \"offset\": ..}], \"apart\": ..}`; only `balls` is required";
 
 /// Reads the file.
 pub(super) fn read(
@@ -63,9 +63,7 @@ pub(super) fn read(
     let file: File = json::typed(path, value, FORM)?;
     let refused = |reason: String| Error::json(path, &reason);
     let Some(chain) = compiled.model.chain() else {
-        return Err(refused(
-            "the robot has no links that balls could be on".to_owned(),
-        ));
+        return Err(refused("the robot has no links to put balls on".to_owned()));
     };
     let links: Vec<&str> = chain.links.iter().map(|link| link.name.as_str()).collect();
     let mut balls = Vec::new();
@@ -106,7 +104,7 @@ pub(super) fn read(
         for axis in 0..3 {
             if low[axis].is_nan() || high[axis].is_nan() || low[axis] >= high[axis] {
                 return Err(refused(
-                    "the box has no inside: `low` is below `high` in each axis".to_owned(),
+                    "the box is empty: `low` must be below `high` in each axis".to_owned(),
                 ));
             }
             let unit = |sign: f64| std::array::from_fn(|k| if k == axis { sign } else { 0.0 });
@@ -118,17 +116,17 @@ pub(super) fn read(
         .apart
         .is_some_and(|apart| apart.is_nan() || apart < 0.0)
     {
-        return Err(refused("`apart` is a distance, 0 or more".to_owned()));
+        return Err(refused("`apart` must be a distance, 0 or more".to_owned()));
     }
     if balls.is_empty() || (planes.is_empty() && file.apart.is_none()) {
         return Err(refused(
-            "it keeps nothing: write `balls`, and `box`, `planes` or the distance that they keep from each other, `\"apart\": 0.02`"
+            "it limits nothing: write `balls`, and `box`, `planes` or their least distance from each other, `\"apart\": 0.02`"
                 .to_owned(),
         ));
     }
     let centers = compiled
         .design_points(&points, nominal)
-        .ok_or_else(|| refused("the robot has no links that balls could be on".to_owned()))?;
+        .ok_or_else(|| refused("the robot has no links to put balls on".to_owned()))?;
     Ok(Box::new(Room {
         centers: Box::new(InterpretedFunction::new(centers, compiled.dof(), period)),
         balls,

@@ -77,7 +77,7 @@ fn rivals_of(
         .collect();
     let alike = || {
         Error::Argument(format!(
-            "`--separate` and `--from` are both `{}` on the same joints: nothing tells an effect from itself",
+            "`--separate` and `--from` are both `{}` on the same joints: give two different effects",
             said[0].0.effect
         ))
     };
@@ -118,12 +118,12 @@ fn one(model: &Model, amendment: &Amendment, values: &[(String, f64)]) -> Result
     let is_late = |act: &Act| matches!(act, Act::Delay { .. });
     if definition.moves_links() || definition.acts.iter().any(is_late) {
         return Err(Error::Argument(format!(
-            "`{name}` moves links along a motion, or makes torques late: no motion is designed for it"
+            "`{name}` displaces links or delays torques: no motion can be designed for it"
         )));
     }
     if definition.linear.is_empty() && shapes.is_empty() {
         return Err(Error::Argument(format!(
-            "`{name}` has no parameter: nothing of it is unknown"
+            "`{name}` has no unknown parameter"
         )));
     }
     let is_load = |leaf: &EffectLeaf| {
@@ -170,12 +170,12 @@ fn sizes(
     let is_other = linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
     if linear.is_empty() && !given.is_empty() {
         return Err(Error::Argument(format!(
-            "`{effect}` has no parameter that the torque is linear in: say its shapes, as in `{effect}(.. = 0.01) on ..`"
+            "`{effect}` has no linear parameter: give its shapes, as in `{effect}(.. = 0.01) on ..`"
         )));
     }
     if !given.is_empty() && is_other {
         return Err(Error::Argument(format!(
-            "`{effect}` has {}: say what each is expected to be, as in `{effect} on ..: {} = 1`, or none of them",
+            "`{effect}` has {}: give the expected value of each, as in `{effect} on ..: {} = 1`, or of none",
             names(linear),
             linear.join(" = 1, ")
         )));
@@ -245,7 +245,8 @@ impl Expected {
             let found = column.and_then(|column| columns.columns.iter().position(|k| *k == column));
             found.map(|place| (place, size)).ok_or_else(|| {
                 Error::Argument(format!(
-                    "no motion of this arm tells `{name}` apart by a column of its own: it regroups with other parameters, or follows from more than the motion, as time and channels are"
+                    "no motion of this arm separates `{name}`: it regroups with other parameters, or depends on more than the motion, such \
+                     as time or channels"
                 ))
             })
         };
@@ -314,7 +315,7 @@ impl OneOfTwo {
         let shapes: Vec<String> = shapes.iter().map(last).collect();
         let on = if shapes.is_empty() { "" } else { " on .." };
         Error::Argument(format!(
-            "`{}` has no parameter that the torque is linear in: say what it is expected to be, as in `{}({} = 0.01){on}`",
+            "`{}` has no linear parameter: give its expected shape, as in `{}({} = 0.01){on}`",
             self.name,
             self.name,
             shapes.join(" = 0.01, ")

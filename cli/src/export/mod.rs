@@ -23,9 +23,8 @@ use standard::{Standard, is_body, standard};
 
 /// Write an arm with its parameters as a URDF or MJCF.
 ///
-/// What is written has the base parameters that were identified, links that are bodies, and where logs are silent the values
-/// nearest to the spec's nominal ones. What is not identifiable alone, and effects for which the format has no place, are told,
-/// here and in comments of the file.
+/// The file has the identified base parameters and physically possible links; values that logs do not determine are nearest to the spec's
+/// nominal ones. Notes and comments in the file list values that are not identifiable alone, and effects that the format cannot hold.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model export arm.robot --as urdf --parameters fit.json --urdf arm.urdf -o identified.urdf
@@ -33,17 +32,17 @@ use standard::{Standard, is_body, standard};
 pub(crate) struct Export {
     /// The `.robot` file.
     spec: PathBuf,
-    /// What to write.
+    /// Format to write.
     #[arg(long = "as", value_enum)]
     format: Format,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// The URDF that the spec was imported from: all of it stays but the inertials, damping and friction of what was identified.
-    /// Without it a URDF is made from the spec's frames.
+    /// The URDF that the spec was imported from: only identified inertials, damping and friction change. Without it a URDF is made from the
+    /// spec's frames.
     #[arg(long, value_name = "ORIGINAL.urdf")]
     urdf: Option<PathBuf>,
-    /// Where rotors go that a URDF has no place for. Bodies are those of an MJCF model of the same parameters where they stand apart.
+    /// How to write rotor inertia, which a URDF cannot hold. With `apart`, links are those of an MJCF model of the same parameters.
     #[arg(long, value_enum, default_value_t = Rotors::Apart)]
     rotors: Rotors,
     /// The file to write.
@@ -54,9 +53,9 @@ pub(crate) struct Export {
 /// Inertia of rotors in a URDF.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Rotors {
-    /// Not written; a note has each, to be given to a simulator as armature.
+    /// Not written; a note lists each value, to set as armature in a simulator.
     Apart,
-    /// In the inertia of their links where that moves alike; links then are far from CAD.
+    /// Added to the inertia of their links where the dynamics are the same; links then differ from CAD.
     InLinks,
 }
 
@@ -64,7 +63,7 @@ enum Rotors {
 enum Format {
     /// Links, joints, damping and friction.
     Urdf,
-    /// The same for `MuJoCo`, with rotors, springs, gravity and motors.
+    /// A `MuJoCo` model, which also has rotors, springs, gravity and motors.
     Mjcf,
 }
 
@@ -80,7 +79,8 @@ impl Format {
 impl Export {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if self.urdf.is_some() && self.format != Format::Urdf {
-            let reason = "`--urdf` is of `--as urdf`; an MJCF model is made from the spec's frames";
+            let reason =
+                "`--urdf` belongs to `--as urdf`; an MJCF model is made from the spec's frames";
             return Err(Error::Argument(reason.to_owned()));
         }
         if self.rotors == Rotors::InLinks && self.format != Format::Urdf {
@@ -159,7 +159,7 @@ impl Export {
             let link = &model.chain().expect("checked at the start").links[joint].name;
             if !is_body(links[joint].inertial) {
                 told.push(format!(
-                    "link `{link}` with the body that an effect adds to it is none that can be; other programs may refuse it"
+                    "link `{link}` with the body that an effect adds is physically impossible; other programs may refuse it"
                 ));
             }
         }
@@ -167,7 +167,7 @@ impl Export {
         let mut notes = Vec::new();
         if !left_out.is_empty() {
             notes.push(format!(
-                "effects that {} does not say are not written: {}",
+                "effects that {} cannot express are not written: {}",
                 self.format.name(),
                 left_out.join(", ")
             ));
@@ -210,13 +210,14 @@ impl Export {
                 let gravity = model.chain().map(|chain| chain.gravity);
                 if let Some([x, y, z]) = gravity.filter(|gravity| *gravity != ASSUMED_GRAVITY) {
                     notes.push(format!(
-                        "{source}: a URDF does not say gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)"
+                        "{source}: a URDF cannot hold gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)"
                     ));
                 }
                 let made_up = made_up_limits(model);
                 if !made_up.is_empty() {
                     notes.push(format!(
-                        "{source}: a URDF wants limits that the spec does not have; {NO_LIMIT:e} stands for those of torque and velocity and {NO_RANGE} m for ranges, at {}",
+                        "{source}: a URDF requires limits, which the spec lacks at {}; written are {NO_LIMIT:e} for torque and velocity and \
+                         {NO_RANGE} m for ranges",
                         made_up.join(", ")
                     ));
                 }

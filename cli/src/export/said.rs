@@ -60,19 +60,19 @@ pub(super) fn remark(compiled: &Compiled, standard: &Standard, link: usize) -> S
     }
     let nearest = match own.inertial {
         Inertial::Nominal(_) => "the spec's nominal values",
-        _ => "a body in place of nominal values, of which the spec has none",
+        _ => "a substitute body, as the spec has no nominal values",
     };
     let parts = [
-        ("told only in sums", &told.in_sums),
+        ("identified only in sums", &told.in_sums),
         ("without influence on any torque", &told.without_influence),
-        ("told alone", &told.alone),
+        ("identified", &told.alone),
     ];
     let parts = parts.iter().filter(|(_, list)| !list.is_empty());
     let parts: Vec<String> = parts
         .map(|(what, list)| format!("{what}: {}", short(list)))
         .collect();
     format!(
-        "one of the sets that move alike, nearest to {nearest}; {}",
+        "one of many sets with the same dynamics, nearest to {nearest}; {}",
         parts.join("; ")
     )
 }
@@ -99,8 +99,8 @@ pub(super) fn moved(standard: &Standard) -> Option<String> {
     };
     (!named.is_empty()).then(|| {
         format!(
-            "no arm of bodies has all these values; the nearest is written, with {}{more}; `identify --method physical` asks the logs \
-             for the nearest",
+            "no physically possible arm has these values; the nearest is written, with {}{more}; `identify --method physical` finds the \
+             possible arm that fits the logs best",
             named.join(", ")
         )
     })
@@ -173,17 +173,22 @@ pub(super) fn not_alone(compiled: &Compiled, remarks: &[String]) -> Option<Strin
         names(&links)
     };
     let of = [
-        (nominal, "the nearest to the nominal values"),
-        (others, "of which the spec has no nominal values"),
+        (nominal, "nearest to the nominal values"),
+        (others, "as the spec has no nominal values"),
     ];
     let of = of.iter().filter(|(links, _)| !links.is_empty());
     let of: Vec<String> = of
-        .map(|(links, which)| format!("{} one of the sets that move alike, {which}", list(links)))
+        .map(|(links, which)| {
+            format!(
+                "for {} one of many sets with the same dynamics, {which}",
+                list(links)
+            )
+        })
         .collect();
     (!of.is_empty()).then(|| {
         format!(
-            "the parameters do not tell each number of the inertials; written is of {} (comments in the file have the names)",
-            of.join(", of ")
+            "the parameters do not determine every inertial value; the file has {} (its comments list the names)",
+            of.join(", ")
         )
     })
 }
@@ -197,7 +202,8 @@ pub(super) fn masses(standard: &Standard) -> Option<String> {
     let others: Vec<String> = others.collect();
     (!others.is_empty()).then(|| {
         format!(
-            "some masses are not the nominal ones, since torques tell them in a sum, or links are no bodies with them that move so: {}",
+            "some masses differ from the nominal ones, since torques determine only sums with them, or links with them would be physically \
+             impossible: {}",
             others.join(", ")
         )
     })

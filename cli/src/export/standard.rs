@@ -55,8 +55,7 @@ pub(super) fn standard(
     let found = search(compiled, values, &widths.values, has_rotors_apart);
     let (found, masses) = found.ok_or_else(|| {
         Error::Argument(format!(
-            "{}: the search for an arm whose links are bodies came to no end near these parameters; `identify --method physical` \
-             finds one on the logs",
+            "{}: the search for a physically possible arm near these parameters did not converge; run `identify --method physical` on the logs",
             compiled.model.source
         ))
     })?;

@@ -24,10 +24,10 @@ use crate::progress::Progress;
 use crate::spec::{compile_instantaneous, read_mended};
 use report::Found;
 
-/// A joint's friction over its speed, from runs at constant speeds: the curve, its static law, and what to write into the spec.
+/// Measure a joint's friction curve from runs at constant speeds: the curve, its static law, and the lines for the spec.
 ///
-/// Stretches in which the joint moves at one speed for 0.3 s and more while all others stand are looked for in the logs. The rigid
-/// body's torque is fitted beside the curve, so no parameter has to be known.
+/// It uses stretches of the logs in which the joint moves at constant speed for at least 0.3 s while all others rest. The rigid body's
+/// torque is fitted with the curve, so no parameter must be known.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model friction arm.robot speeds.csv --joint elbow --figure elbow.svg
@@ -42,18 +42,18 @@ pub(crate) struct Friction {
     /// The joint, by its name or by its number from 1.
     #[arg(long, value_name = "NAME")]
     joint: String,
-    /// A log in which the torque rises slowly from rest until the joint breaks away: for the stiffness of its bristles.
+    /// A log in which the torque rises slowly from rest until the joint breaks away: identifies the stiffness of its bristles.
     #[arg(long, value_name = "LOG")]
     pre_sliding: Option<PathBuf>,
     #[command(flatten)]
     log_settings: LogSettings,
-    /// The arm's parameters, by name or what `identify --json` writes: the rigid body's torque is then known, and not fitted.
+    /// The arm's parameters, by name or what `identify --json` writes: the rigid body's torque is then computed, not fitted.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// Write the result as JSON, whose `parameters` are a start for `identify --method output-error`.
+    /// Write the result as JSON; its `parameters` are start values for `identify --method output-error`.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// The curve drawn.
+    /// Draw the curve.
     #[arg(long, value_name = "FILE.svg")]
     figure: Option<PathBuf>,
 }
@@ -141,7 +141,7 @@ impl Friction {
         if !left_out.is_empty() {
             let left_out: Vec<&str> = left_out.iter().map(String::as_str).collect();
             progress.note(&format!(
-                "note: without a value for each of its shapes {} left out; give them in the spec",
+                "note: {} ignored, as a shape has no value; give it in the spec",
                 match left_out.len() {
                     1 => format!("the effect {} is", names(&left_out)),
                     _ => format!("the effects {} are", names(&left_out)),
@@ -155,7 +155,7 @@ impl Friction {
                 let missing = columns::rigid(compiled, &known.missing);
                 if !missing.is_empty() {
                     return Err(Error::Argument(format!(
-                        "{}: no value for {}; without `--parameters` the rigid body is fitted beside the curve",
+                        "{}: no value for {}; without `--parameters` the rigid body is fitted together with the curve",
                         path.display(),
                         names(&missing)
                     )));
@@ -184,8 +184,7 @@ fn bristles(
 ) -> Result<Bristles, Error> {
     if law.coulomb.value <= 0.0 {
         return Err(Error::Argument(format!(
-            "the static law has a Coulomb torque of {:.4}, with which no bristles slide; measure the curve at lower speeds, where {} \
-             not enough",
+            "the static law has a Coulomb torque of {:.4}, with which no bristles slide; measure the curve at lower speeds, where {} not enough",
             law.coulomb.value,
             counted(curve.points.len(), "point")
         )));

@@ -34,14 +34,14 @@ impl Found<'_> {
         if let Some(Fall { speed, .. }) = law.fall {
             if least > speed.value {
                 doubts.push(format!(
-                    "no speed is below the Stribeck speed of {:.4} {unit}: the breakaway torque is extrapolated from {least:.4} {unit}",
+                    "no measured speed is below the Stribeck speed of {:.4} {unit}: the breakaway torque is extrapolated from {least:.4} {unit}",
                     speed.value,
                     unit = units.velocity
                 ));
             }
             if most < FALLEN * speed.value {
                 doubts.push(format!(
-                    "no speed is above {:.4} {}, where the fall is over: Coulomb and viscous friction are extrapolated",
+                    "no measured speed is above {:.4} {}, where the Stribeck effect ends: Coulomb and viscous friction are extrapolated",
                     FALLEN * speed.value,
                     units.velocity
                 ));
@@ -49,35 +49,33 @@ impl Found<'_> {
         }
         if !law.is_told_by_differences(curve) {
             doubts.push(format!(
-                "one step of the encoder from sample to sample is {:.4} {}, above the Stribeck speed: velocities that are differences of samples \
-                 do not tell the fall, the slopes of the stretches do",
+                "one encoder step per sample is {:.4} {}, above the Stribeck speed: velocities from differences of samples do not resolve \
+                 the Stribeck effect, the slopes of the stretches do",
                 curve.speed_step, units.velocity
             ));
         }
         if law.coulomb.value < -NOTHING * law.coulomb.std {
             doubts.push(
-                "the Coulomb torque is below zero: is the sign of the torque that of the spec's joint?"
+                "the Coulomb torque is negative: does the torque have the sign of the spec's joint?"
                     .to_owned(),
             );
         }
         if law.viscous.value < -NOTHING * law.viscous.std {
             doubts.push(
-                "viscous friction is below zero: there is a fall that the speeds do not reach to the end of, or a torque that is none of \
-                 friction"
+                "viscous friction is negative: speeds do not reach the end of the Stribeck effect, or a torque other than friction acts"
                     .to_owned(),
             );
         }
         if law.misfit > MISFIT {
             doubts.push(format!(
-                "points are off the law by {:.1} of their deviations: their friction is of another shape, as one that differs by direction or \
-                 follows position or warmth, and values of the law stand for a mean",
+                "points deviate from the law by {:.1} of their standard deviations: friction has another shape, for example it depends on \
+                 direction, position or temperature, and the law is only its mean",
                 law.misfit
             ));
         }
         if let Some(late) = curve.late {
             doubts.push(format!(
-                "torques come {:.1} +- {:.1} ms {} the positions, as what changes with position says; the curve is that of torques of the same \
-                 time",
+                "torques come {:.1} +- {:.1} ms {} the positions, judged by position-dependent torque; the curve is corrected for that",
                 1e3 * late.value.abs(),
                 1e3 * late.std,
                 if late.value > 0.0 { "behind" } else { "ahead of" }
@@ -86,12 +84,13 @@ impl Found<'_> {
         let is_one_way = law.offset.is_none();
         if is_one_way {
             doubts.push(
-                "one direction only: what is the same in both, as an offset of the torque, is in the Coulomb torque".to_owned(),
+                "one direction only: a torque offset is included in the Coulomb torque".to_owned(),
             );
         }
         if curve.has_constant {
             doubts.push(
-                "a constant torque of the rigid body is in the points and in the offset".to_owned(),
+                "a constant torque of the rigid body is included in the points and in the offset"
+                    .to_owned(),
             );
         }
         if let Some(bristles) = self.bristles {
@@ -105,8 +104,8 @@ impl Found<'_> {
         let mut doubts = Vec::new();
         if !bristles.is_resolved() {
             doubts.push(format!(
-                "the encoder's step of {:.3e} {position} is above a fifth of the deflection of {:.3e} {position} at which the bristles slide: \
-                 it tells stiffnesses below {:.4} {}/{position}",
+                "the encoder's step of {:.3e} {position} is above a fifth of the deflection of {:.3e} {position} at which the bristles \
+                 slide: it resolves stiffnesses below {:.4} {}/{position}",
                 bristles.encoder_step,
                 bristles.deflection.value,
                 bristles.most_stiffness(),
@@ -116,21 +115,21 @@ impl Found<'_> {
         }
         if !bristles.is_of_contact() {
             doubts.push(format!(
-                "the bristles bend by {:.4} {position} before they slide, further than surfaces in contact do: a spring or play, or a torque in \
-                 another unit",
+                "the bristles deflect by {:.4} {position} before they slide, more than contact surfaces do: the cause is a spring, \
+                 backlash, or a torque in another unit",
                 bristles.deflection.value,
                 position = units.position
             ));
         }
         if bristles.damping.is_none() {
             doubts.push(
-                "the damping of the bristles is not told by so slow a rise; `identify --method output-error` with `lugre_presliding` finds it"
+                "such a slow rise does not determine the damping of the bristles; `identify --method output-error` with `lugre_presliding` does"
                     .to_owned(),
             );
         }
         if (bristles.reached / breakaway.value - 1.0).abs() > 0.1 {
             doubts.push(format!(
-                "the joint broke away at {:.4} {unit}, where the static law says {:.4} +- {:.4} {unit}",
+                "the joint broke away at {:.4} {unit}, the static law predicts {:.4} +- {:.4} {unit}",
                 bristles.reached,
                 breakaway.value,
                 breakaway.std,
@@ -156,7 +155,7 @@ impl Found<'_> {
             counted(stretches, "stretch").replace("stretchs", "stretches"),
             if self.is_fitted {
                 format!(
-                    "the rigid body was fitted beside it ({})",
+                    "the rigid body was fitted with it ({})",
                     counted(curve.rank, "column")
                 )
             } else {
@@ -220,7 +219,7 @@ impl Found<'_> {
         for Parameter { name, value, std } in parameters {
             let said = match std {
                 Some(_) => "",
-                None => "   (not told: a first value)",
+                None => "   (not identified: a first value)",
             };
             let _ = writeln!(text, "  {name} = {value:.6}{said}");
         }
@@ -232,14 +231,15 @@ impl Found<'_> {
         let torque = self.units().torque;
         let (most, rms) = self.law.distance;
         let distance =
-            format!("points are off the law by {rms:.5} {torque} rms, {most:.5} at most");
+            format!("points deviate from the law by {rms:.5} {torque} rms, {most:.5} at most");
         let fall = match (self.law.fall, self.law.probability) {
             (Some(_), Some(p)) => format!("friction falls with speed (by chance: {p:.4})"),
             (None, Some(p)) => {
-                format!("no fall with speed beyond chance ({p:.4}): F_s and v_s are not told")
+                format!("no significant fall with speed ({p:.4}): F_s and v_s are not identified")
             }
             (_, None) => {
-                "too few speeds for a fall, which takes five: F_s and v_s are not told".to_owned()
+                "too few speeds for a fall, which needs five: F_s and v_s are not identified"
+                    .to_owned()
             }
         };
         format!("{fall}; {distance}")

@@ -13,8 +13,9 @@ pub(super) fn bent_shapes(arm: &dyn Arm, estimate: &Estimate) -> Option<String> 
         .collect();
     (!open.is_empty() && !estimate.is_without_turns).then(|| {
         format!(
-            "{} looked for with the rows where joints turn, as no others tell {}: a joint stands there longer than its law says, and values of \
-             the effect may be off by many of their deviations; runs at constant speeds tell a friction curve (`friction`)",
+            "{} fitted on rows near velocity reversals, as no other rows determine {}: there a joint sticks longer than its friction law \
+             says, so values of the effect may be wrong by many standard deviations; measure friction at constant speeds instead \
+             (`friction`)",
             match open.as_slice() {
                 [one] => format!("`{one}` is"),
                 _ => format!("{} are", names(&open)),
@@ -29,8 +30,9 @@ pub(super) fn told_there_alone(estimate: &Estimate) -> Option<String> {
     let told: Vec<&str> = estimate.told_at_turns.iter().map(String::as_str).collect();
     (!told.is_empty()).then(|| {
         format!(
-            "no rows but those where joints turn tell {}: a joint stands there longer than its law says, and its encoder does not tell when, so \
-             they may be off by many of their deviations: move these joints further or faster, or more of the time one way",
+            "only rows near velocity reversals determine {}: there a joint sticks longer than its friction law says, and its encoder does \
+             not show when, so these values may be wrong by many standard deviations; move these joints further or faster, or longer in one \
+             direction",
             names(&told)
         )
     })
@@ -39,11 +41,12 @@ pub(super) fn told_there_alone(estimate: &Estimate) -> Option<String> {
 /// Why fewer rows are fitted than there are.
 pub(crate) fn left_out(arm: &dyn Arm) -> String {
     let bent = if arm.dry_shapes().is_empty() {
-        "deviations are a third smaller, or more, without what they move values by: right where friction is a jump, else values are of higher speeds only"
+        "without them standard deviations are at least a third smaller; right if friction is a pure jump, else values hold for higher speeds only"
     } else {
-        "open shapes of friction would be bent after that"
+        "friction shapes without a value would be biased by that"
     };
     format!(
-        "rows where joints with dry friction turn are left out, as with `--leave-out-turns`: a joint stands longer there than its law says, and {bent}"
+        "rows near velocity reversals of joints with dry friction are left out, as with `--leave-out-turns`: there a joint sticks longer \
+         than its friction law says; {bent}"
     )
 }

@@ -34,8 +34,8 @@ pub(super) fn lone_doubt(estimate: &Estimate) -> Option<String> {
     let names: Vec<&str> = estimate.of_one_block.iter().map(String::as_str).collect();
     (!names.is_empty()).then(|| {
         format!(
-            "deviations of {} rest on one block of the logs: how estimates move from block to block says nothing of what it alone tells, which \
-             has the deviation of white noise, times what this is too small by for the others; more logs that move them would tell",
+            "only one block of the logs determines {}, so its variation between blocks is unknown; the standard deviation is that of white \
+             noise, scaled as for the other parameters; add logs whose motion excites these parameters",
             output::names(&names)
         )
     })
@@ -45,14 +45,14 @@ pub(super) fn lone_doubt(estimate: &Estimate) -> Option<String> {
 pub(super) fn blocks_doubt(estimate: &Estimate) -> Option<String> {
     let count = estimate.blocks?;
     let of = match count {
-        1 => "those of white noise, as what was reduced is a single block: noise that is slow is in none of them".to_owned(),
+        1 => "those of white noise, as the factor holds a single block, and do not include slow noise".to_owned(),
         few if few < Factor::ENOUGH_BLOCKS => format!(
-            "from {few} blocks of the logs and large, as so few say little of how sure a parameter is"
+            "estimated from only {few} blocks of the logs, and therefore large"
         ),
         _ => return None,
     };
     Some(format!(
-        "deviations are {of}; {} blocks of a second or more would do, or the logs themselves without `--factor`",
+        "standard deviations are {of}; use {} blocks of a second or more, or the logs themselves without `--factor`",
         Factor::ENOUGH_BLOCKS
     ))
 }
@@ -63,12 +63,12 @@ fn said(independent: f64, parameters: usize) -> Option<String> {
         return None;
     }
     let verdict = if share < TOO_FEW {
-        "too short: deviations are much too small"
+        "too short: standard deviations are much too small"
     } else {
-        "short: deviations are somewhat small"
+        "short: standard deviations are somewhat small"
     };
     Some(format!(
-        "the logs are {verdict}; {independent:.0} independent samples for {parameters} parameters, {:.0} would do: log {:.0} times as long",
+        "the logs are {verdict}; {independent:.0} independent samples for {parameters} parameters, {:.0} are enough: log {:.0} times as long",
         ENOUGH * parameters as f64,
         (ENOUGH / share).ceil().min(1e3)
     ))

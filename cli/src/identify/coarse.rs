@@ -37,9 +37,8 @@ pub(super) fn doubt(
         .collect();
     (!noisy.is_empty()).then(|| {
         format!(
-            "accelerations are to a large part noise of the positions, as a coarse encoder makes it (of their power within the filters: {}): \
-             inertias come out too small by about as much; `--form filtered` and `--method iv` do without or with less of it, faster motion has \
-             more to show",
+            "accelerations are largely position noise, as from a coarse encoder (share of their power within the filters: {}): inertias are \
+             too small by about as much; use `--form filtered` or `--method iv`, or a faster motion",
             noisy.join(", ")
         )
     })

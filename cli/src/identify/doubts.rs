@@ -16,8 +16,8 @@ const LITTLE: f64 = 85.0;
 pub(super) fn unexplained(estimate: &Estimate) -> Option<&'static str> {
     let is_nothing = left(estimate).iter().all(|percent| *percent > LITTLE);
     is_nothing.then_some(
-        "the model explains next to nothing of the torque of any joint; see whether the log has positions in rad and m, torques in N m \
-         and N (else `actuator_gain`), signs and order of the spec's joints, and both of the same time",
+        "the model explains almost none of the torque of any joint; check that positions are in rad and m, torques in N m and N (else set \
+         `actuator_gain`), that signs and order are those of the spec's joints, and that positions and torques have the same time",
     )
 }
 
@@ -54,8 +54,8 @@ fn little(
     let ill: Vec<String> = ill.collect();
     (!ill.is_empty()).then(|| {
         format!(
-            "the model explains little of the torque {of}, of which is left: {}; see whether signs, order and units of the columns are those \
-             of the spec's joints, then what the model lacks (`trace`)",
+            "the model explains little of the torque {of}; residual: {}; check that signs, order and units of the columns are those of the \
+             spec's joints, then ask `trace` what the model lacks",
             ill.join(", ")
         )
     })
@@ -74,12 +74,12 @@ pub(super) fn explained(estimate: &Estimate, validation: Option<&Errors>) -> Vec
     let fitted = unexplained(estimate).map(str::to_owned);
     let percents = left(estimate);
     let fitted = fitted.or_else(|| {
-        let of = "that is fitted";
+        let of = "of the fitted logs";
         little(ill_fitted(percents), percents, &estimate.joints, of)
     });
     let other = validation.and_then(|errors| {
         let percents = &errors.relative_percent;
-        let of = "on the log to validate on";
+        let of = "of the validation log";
         little(ill_judged(percents), percents, &estimate.joints, of)
     });
     let other = other.or_else(|| {
@@ -99,9 +99,9 @@ fn worse_judged(fitted: &[f64], judged: &[f64], joints: &[String]) -> Option<Str
         .collect();
     (!worse.is_empty()).then(|| {
         format!(
-            "the model explains the logs that are fitted, and next to nothing of the log to validate on; of the torque there is left (of what is \
-             fitted): {}; either that log shows what the model lacks and the others hardly do, as a coupling or a load (`trace` with both finds \
-             it), or it is of another arm or order of columns",
+            "the model explains the fitted logs, but almost nothing of the validation log; residual there (on the fitted logs): {}; either \
+             the validation log shows an effect that the fitted logs hardly show, such as a coupling or a load (`trace` with both finds it), \
+             or it is of another arm or has another order of columns",
             worse.join(", ")
         )
     })
@@ -118,8 +118,8 @@ fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
     let effect = name.rsplit_once('.').map_or(name, |(effect, _)| effect);
     (!is_shape_told(value, std)).then(|| {
         format!(
-            "the logs do not tell `{name}`, {value:.2e} +- {std:.2e}, nor with it the values of `{effect}`: see whether errors on a log that is \
-             not fitted are less with that effect, and leave it out where they are not"
+            "the logs do not determine `{name}` ({value:.2e} +- {std:.2e}), and so not the values of `{effect}`; remove this effect unless \
+             it reduces errors on a validation log"
         )
     })
 }
@@ -144,8 +144,8 @@ pub(super) fn held_torques(model: &Model, estimate: &Estimate) -> Option<String>
         .collect();
     (!held.is_empty()).then(|| {
         format!(
-            "torques are early by less than a sample, as those are that are set at a sample and held until the next: {}; values are bent by that: \
-             log at a higher rate, or declare `time_delay;` among the effects; `--method output-error` holds torques between samples",
+            "torques are early by less than a sample, as commands are that are held until the next sample: {}; this biases the values: log \
+             at a higher rate, declare `time_delay;` in `effects`, or use `--method output-error`, which holds torques between samples",
             held.join(", ")
         )
     })
@@ -172,8 +172,8 @@ pub(super) fn at_ends(found: &[(String, f64)], shapes: &[Shape]) -> Vec<String> 
             return None;
         };
         Some(format!(
-            "`{name}` is at the {end} end of its range {low} .. {high}: either the logs do not tell it, or it lies beyond; an effect of the \
-             spec's own, a copy under another name, may have a wider range"
+            "`{name}` is at the {end} end of its range {low} .. {high}: either the logs do not determine it, or it lies outside; to widen \
+             the range, define a copy of the effect under another name in the spec"
         ))
     });
     told.collect()
@@ -213,8 +213,8 @@ pub(super) fn below_zero<'a>(
         return None;
     }
     Some(format!(
-        "{} below zero by more than three deviations, as no arm has it: see whether torques have the signs and the order of the spec's joints, \
-         and what `trace` and `audit` say",
+        "{} below zero by more than three standard deviations, which is physically impossible: check that torques have the signs and the \
+         order of the spec's joints, then run `trace` and `audit`",
         names_are(&below)
     ))
 }
@@ -248,9 +248,9 @@ pub(super) fn beyond_noise(model: &Model, logs: &[Log], rmse: &[f64]) -> Option<
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "simulated positions are off by more than the noise of the logs ({}): torques have noise of their own, which deviations know of, or \
-             the model or its controller is another than the arm's, or the search has ended in a valley that is not the deepest, which they do \
-             not: compare the costs of other starts and windows",
+            "errors of simulated positions exceed the noise of the logs ({}): torques are noisy, which standard deviations include; or the \
+             model or its controller differs from the arm's, or the search ended in a local minimum, which they do not include; compare the \
+             costs of other starts and windows",
             told.join(", ")
         )
     })
@@ -274,8 +274,8 @@ pub(super) fn hardly_apart(estimate: &Estimate, model: &Model, logs: &[Log]) -> 
         format!("; {} hardly moving in these logs", names_are(&resting))
     };
     Some(format!(
-        "the columns are hardly apart (condition {:.0}): noise of positions in them, which no deviation knows of, may be most of a value{who}; \
-         `excite` makes a motion that tells them apart",
+        "the regressor's columns are nearly dependent (condition {:.0}): position noise in them, which standard deviations do not include, \
+         may dominate a value{who}; `excite` designs a motion that separates them",
         estimate.condition
     ))
 }

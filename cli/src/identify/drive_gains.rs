@@ -147,8 +147,8 @@ fn elsewhere(given: [f64; 3], free: &Driven, mass: f64) -> Option<String> {
     let told: Vec<String> = told.collect();
     (!told.is_empty()).then(|| {
         format!(
-            "the logs themselves have the payload's center of mass elsewhere, m: {}; is `--payload-center` in the frame of the link, and the mass \
-             that of what it carries? Gains are off with it; without it they are told beside the center",
+            "the logs place the payload's center of mass elsewhere, m: {}; check that `--payload-center` is in the frame of the link and \
+             that the mass is right; a wrong center biases the gains, without the option gains and center are identified together",
             told.join(", ")
         )
     })
@@ -159,14 +159,14 @@ fn doubt(gain: &Gain) -> Option<String> {
     let (value, std) = gain.value.zip(gain.std)?;
     if value.abs() < 3.0 * std {
         return Some(format!(
-            "the gain of {} is not told from zero: the payload changes little of what its drive logs",
+            "the gain of {} cannot be distinguished from zero: the payload hardly changes what its drive logs",
             gain.joint
         ));
     }
     (value < 0.0).then(|| {
         format!(
-            "the gain of {} is negative: its drive's sign is not that of the spec's joint, or logs with and without the payload are in \
-             each other's place",
+            "the gain of {} is negative: its drive's sign is opposite to that of the spec's joint, or the logs with and without the payload \
+             are swapped",
             gain.joint
         )
     })
@@ -189,7 +189,7 @@ fn told(gains: &[Gain], known: &KnownPayload, link: &str) -> String {
                 100.0 * (std / value).abs()
             ),
             None => format!(
-                "not told: parameters that show in its torque alone are of the spec's {declared}"
+                "not identified: parameters that appear in its torque alone use the spec's {declared}"
             ),
         };
         // A string takes all.

@@ -85,12 +85,12 @@ impl Part {
         let mut rows = self.rows.iter().flatten();
         if lists != [joints; 4] || !rows.all(|row| row.len() == width) {
             return Some(format!(
-                "has not one list of rows per joint with {width} numbers each"
+                "does not have one list of rows per joint with {width} numbers each"
             ));
         }
         let mut sizes = self.torque_squares.iter().chain(&self.most_torque);
         let is_negative = sizes.any(|size| *size < 0.0);
-        is_negative.then(|| "has a sum of squares or a size below zero".to_owned())
+        is_negative.then(|| "has a negative sum of squares or size".to_owned())
     }
 }
 
@@ -101,21 +101,21 @@ impl Block {
             return Some(fault);
         }
         if self.prints.windows(2).any(|pair| pair[0] > pair[1]) {
-            return Some("has prints that do not ascend".to_owned());
+            return Some("has `prints` that do not ascend".to_owned());
         }
         let mut counts = self.whole.counts.iter();
         if self.samples == 0 || counts.any(|count| *count > self.samples) {
-            return Some("has no samples, or less than rows".to_owned());
+            return Some("has no samples, or fewer samples than rows".to_owned());
         }
         let away = self.away.iter().flat_map(|away| &away.counts);
         let mut pairs = away.zip(&self.whole.counts);
         let is_more = pairs.any(|(away, whole)| away > whole);
-        is_more.then(|| "has more rows away from turns than rows".to_owned())
+        is_more.then(|| "has more rows away from velocity reversals than rows".to_owned())
     }
 }
 
 /// What a factor is not that is refused.
-const AS_WRITTEN: &str = "it is no factor as `identify --factor` writes it; write it anew";
+const AS_WRITTEN: &str = "it is not a factor written by `identify --factor`; write it again";
 
 /// The first did not say what its columns are made of, nor which rows are at turns, the second not of which parts a block is, the third no
 /// largest torques, the fourth not of which form of the equations the rows are.
@@ -178,7 +178,7 @@ pub(crate) fn open(path: &Path) -> Result<Opened<'_>, Error> {
     let value: Value = json::read(path).map_err(|error| {
         // What is no JSON at all is most likely what the factor was to be made of.
         if log_of(path) {
-            refuse("it is a log, and no factor of logs; `identify --factor` makes one of it")
+            refuse("it is a log, not a factor; make a factor of it with `identify --factor`")
         } else {
             error
         }
@@ -188,7 +188,7 @@ pub(crate) fn open(path: &Path) -> Result<Opened<'_>, Error> {
         .filter(|form| *form != u64::from(FORM))
     {
         return Err(refuse(&format!(
-            "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
+            "it is a factor of form {form}, this program reads form {FORM}; write it again with `identify --factor`"
         )));
     }
     let file: File = json::typed(path, value, AS_WRITTEN)?;
@@ -197,7 +197,7 @@ pub(crate) fn open(path: &Path) -> Result<Opened<'_>, Error> {
         (FormName::Filtered, Some(corner)) if corner > 0.0 => Form::Filtered { corner },
         (FormName::Filtered, _) => {
             return Err(refuse(
-                "it is of the filtered form, and has no `corner` above 0 rad/s; write it anew with `identify --factor`",
+                "it is of the filtered form, but has no `corner` above 0 rad/s; write it again with `identify --factor`",
             ));
         }
     };
@@ -205,7 +205,7 @@ pub(crate) fn open(path: &Path) -> Result<Opened<'_>, Error> {
     for (k, block) in file.blocks.iter().enumerate() {
         if let Some(fault) = block.fault(joints, width) {
             return Err(refuse(&format!(
-                "block {} {fault}; write it anew with `identify --factor`",
+                "block {} {fault}; write it again with `identify --factor`",
                 k + 1
             )));
         }

@@ -74,8 +74,8 @@ pub(crate) fn torques(model: &Model, log: &Log) -> Option<String> {
     let far: Vec<String> = far.collect();
     (!far.is_empty()).then(|| {
         format!(
-            "torques are beyond the limits of the spec: {}: are they in another unit, or currents? Logs are in N m and N, or as the spec says \
-             (`log`, `actuator_gain`)",
+            "torques exceed the limits of the spec: {}: are they in another unit, or currents? Logs are in N m and N unless the spec says \
+             otherwise (`log`, `actuator_gain`)",
             far.join(", ")
         )
     })
@@ -114,15 +114,13 @@ fn question(asked: &Asked, log: &Log, far: &[Far]) -> Option<String> {
     let [other, in_spec] = asked.other;
     let are_counts = far.iter().all(|far| is_counted(&log.q[far.joint]));
     let (other, in_spec) = if are_counts {
-        (
-            format!("counts of an encoder, or whole {other}"),
-            asked.step,
-        )
+        (format!("encoder counts, or whole {other}"), asked.step)
     } else {
         (other.to_owned(), in_spec)
     };
     Some(format!(
-        "positions go where no joint {}: {}: {are_they} in {other}? Logs are in {}, or as the spec says: `log {{ q = \"q{first}\": {in_spec}, ..; }}`",
+        "positions are farther than any joint {}: {}: {are_they} in {other}? Logs are in {} unless the spec says otherwise: `log {{ q = \
+         \"q{first}\": {in_spec}, ..; }}`",
         asked.moves,
         joints.join(", "),
         asked.unit
@@ -195,7 +193,7 @@ mod tests {
     fn whole_numbers_are_asked_whether_they_are_counts() {
         let counts = said(1200.0, 400.0, true);
         for said in &counts {
-            assert!(said.contains("is it in counts of an encoder"), "{said}");
+            assert!(said.contains("is it in encoder counts"), "{said}");
         }
         assert!(counts[0].contains("360 deg/4096") && counts.len() == 2);
     }

@@ -123,20 +123,19 @@ fn said(
 ) -> String {
     let errors = relieved(before, after, LITTLE_LESS).map(|k| {
         format!(
-            "{:.1} % for {:.1} % of `{}`",
+            "{:.1} % instead of {:.1} % of the torque of `{}`",
             after[k], before[k], joints[k]
         )
     });
     let errors: Vec<String> = errors.collect();
     let free = match (bodies.len(), is_together) {
-        (1, _) => "that the spec has `fixed` left free",
-        (_, true) => "that the spec has `fixed` all left free",
-        (_, false) => "that the spec has `fixed` left free, any one of them",
+        (1, _) => "identified instead of `fixed`",
+        (_, true) => "all identified instead of `fixed`",
+        (_, false) => "(any one of them) identified instead of `fixed`",
     };
     format!(
-        "these logs fit better with {} {free}: there is left of the torque {}; see whether its numbers, frame and units are those of the arm and \
-         whether it carries more, or write `nominal` for `fixed`; another effect, as a rotor's inertia, may be what is missing, and `trace` \
-         tells them apart",
+        "these logs fit better with {} {free}: residual {}; check its numbers, frame and units, and whether it carries more, or write \
+         `nominal` instead of `fixed`; the cause may also be a missing effect, such as rotor inertia: `trace` distinguishes them",
         names(bodies),
         errors.join(", ")
     )
@@ -155,7 +154,7 @@ mod tests {
         assert_eq!(better(&[1e-6, 1e-6], &[1e-9, 1e-9]), 0);
         let joints = ["one", "two"].map(str::to_owned);
         let told = said(&["cup"], false, &joints, [&[9.0, 4.0], &[8.9, 2.0]]);
-        let wanted = "these logs fit better with `cup` that the spec has `fixed` left free: there is left of the torque 2.0 % for 4.0 % of `two`;";
+        let wanted = "these logs fit better with `cup` identified instead of `fixed`: residual 2.0 % instead of 4.0 % of the torque of `two`;";
         assert!(told.starts_with(wanted), "{told}");
     }
 

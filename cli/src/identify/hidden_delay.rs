@@ -6,13 +6,16 @@ pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     let delay = estimate.hidden_delay?;
     let (ms, std) = (1e3 * delay.seconds.abs(), 1e3 * delay.std);
     let (late, finds) = if delay.seconds > 0.0 {
-        ("late", "`time_delay;` among the effects finds a delay, ")
+        (
+            "late",
+            "declare `time_delay;` in `effects` to identify a delay; ",
+        )
     } else {
         ("early", "")
     };
     // A noisy torque has a noisy slope, beside which its delay comes out too short.
     Some(format!(
-        "torques are {late} by {ms:.1} +- {std:.1} ms or more, though noise hides what that leaves of their errors; what it moves values by is in \
-         their deviations: {finds}`trace` asks whether friction that the spec lacks looks like one",
+        "torques are {late} by {ms:.1} +- {std:.1} ms or more, though noise hides the effect on errors; standard deviations include the \
+         bias of the values: {finds}`trace` checks whether undeclared friction looks like a delay",
     ))
 }

@@ -13,8 +13,8 @@ pub(super) fn hint(logs: &[Log], joints: usize) -> Option<String> {
 fn said(samples: usize, joints: usize) -> Option<String> {
     (samples * joints > MANY).then(|| {
         format!(
-            "all {samples} samples are fitted at once, in memory that grows with them; `--factor FILE.json` reads them piece by piece, with \
-             the same result of `ls` and `wls`"
+            "all {samples} samples are fitted at once, and memory grows with them; `--factor FILE.json` reads them piece by piece, with the \
+             same result for `ls` and `wls`"
         )
     })
 }

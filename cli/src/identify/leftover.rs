@@ -44,8 +44,7 @@ fn said(
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "there is left of the torque what goes on from row to row, as noise does not: {}; values make up for what the spec lacks, and `trace` \
-             asks what that is",
+            "the residual is correlated from row to row, unlike noise: {}; the spec lacks an effect, which biases the values: `trace` looks for it",
             told.join(", ")
         )
     })

@@ -27,8 +27,8 @@ pub(super) fn doubts<'a>(
             .collect();
         (!apart.is_empty()).then(|| {
             format!(
-                "{} hardly resembles the motion of {} (correlation of positions: {}): such instruments say little and deviations are large; is it \
-                 the motion of another log, or does it start at another time?",
+                "{} hardly resembles the motion of {} (correlation of positions: {}): such instruments are weak and standard deviations are \
+                 large; is it the motion of another log, or does it start at another time?",
                 path.display(),
                 log.source,
                 apart.join(", ")

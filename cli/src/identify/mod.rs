@@ -73,63 +73,62 @@ pub(crate) struct IdentifyArguments {
     /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// A log that is not fitted, to judge the model on.
+    /// Validation log: not fitted, errors are computed on it.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
-    /// How parameters are found.
+    /// Estimation method.
     #[arg(long, value_enum, default_value_t)]
     method: MethodArgument,
-    /// What the rows of a joint are divided by; of `wls`, `robust`, `tls`, `iv`.
+    /// Divisor of each joint's rows; for `wls`, `robust`, `tls`, `iv`.
     #[arg(long, value_enum, default_value_t)]
     weights: WeightsArgument,
-    /// Of `ridge`: by which share of a body's own size the spec's nominal values are off (one standard deviation); 0.3 without it.
+    /// For `ridge`: standard deviation of the spec's nominal values, as a share of each body's size; default 0.3.
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     prior: Option<f64>,
-    /// Of `iv`: a motion without noise for each log, in their order, `time,q1..qn`: the wanted one, or that of `simulate`.
+    /// For `iv`: a noise-free motion for each log, in their order, `time,q1..qn`: the commanded one, or that of `simulate`.
     #[arg(long, value_name = "MOTION", num_args = 1..)]
     instruments: Vec<PathBuf>,
-    /// Which equations: `tau = Y_b(q, dq, ddq) beta`, or `L{tau} = Y_L(q, dq) beta` without accelerations.
+    /// Equations: `tau = Y_b(q, dq, ddq) beta`, or `L{tau} = Y_L(q, dq) beta` without accelerations.
     #[arg(long, value_enum, default_value_t)]
     form: FormArgument,
-    /// Corner of the filter `L(s) = w / (s + w)` of the filtered form, rad/s; without it the end of the shared band.
+    /// Corner of the filter `L(s) = w / (s + w)` of the filtered form, rad/s; default: the end of the shared band.
     #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = parse_corner)]
     corner: Option<f64>,
-    /// Cutoffs of the zero-phase filters, Hz: shared by torque and columns, of rigid-body kinematics, of effects'
-    /// kinematics; without it they are chosen from the logs.
+    /// Cutoffs of the zero-phase filters, Hz: of torque and columns, of rigid-body kinematics, of effects' kinematics; default: chosen from the logs.
     #[arg(long, value_name = "SHARED,SMOOTH,WIDE", allow_hyphen_values = true, value_parser = parse_bands)]
     bands: Option<Bands>,
-    /// Logs of the arm with a payload, which is identified from all logs together.
+    /// Logs of the arm with a payload; the payload is identified from all logs together.
     #[arg(long, value_name = "LOG", num_args = 1..)]
     payload: Vec<PathBuf>,
-    /// The link that carries the payload; without it the last one.
+    /// The link that carries the payload; default: the last one.
     #[arg(long, value_name = "LINK", requires = "payload")]
     payload_link: Option<String>,
-    /// The payload's mass, kg, as a scale shows it: the gains of the drives are identified with it.
+    /// The payload's weighed mass, kg: identifies the gains of the drives.
     #[arg(long, value_name = "KG", requires = "payload", allow_hyphen_values = true, value_parser = parse_mass)]
     payload_mass: Option<f64>,
-    /// Its center of mass in the link's frame, m, where that is known, too.
+    /// Its center of mass in the link's frame, m, if known.
     #[arg(long, value_name = "X,Y,Z", requires = "payload_mass", allow_hyphen_values = true, value_parser = parse_center)]
     payload_center: Option<[f64; 3]>,
-    /// Identify what can be where the logs do not tell all parameters apart: sums of them, each with a value of its own.
+    /// If the logs do not separate all parameters, identify the sums that they do determine.
     #[arg(long)]
     partial: bool,
-    /// Draw blocks of the logs so often, 100 times or more, for intervals that need no formula; of `ls`, `wls`, `robust`.
+    /// Bootstrap confidence intervals from this many draws of blocks, 100 or more; for `ls`, `wls`, `robust`.
     #[arg(long, value_name = "DRAWS", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(i64::from(Bootstrap::LEAST_DRAWS)..=100_000))]
     bootstrap: Option<u32>,
-    /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.
+    /// Find the parameters that differ significantly from zero, and also identify these alone; for `ls`, `wls`, `robust`.
     #[arg(long)]
     essential: bool,
     #[command(flatten)]
     rows: RowOptions,
     #[command(flatten)]
     log_settings: LogSettings,
-    /// Write what the logs tell, for `merge`; they are read piece by piece then, in memory that does not grow with them.
+    /// Write the information of the logs for `merge`, and read them piece by piece, so memory does not grow.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the result as a page with figures, `index.html` in a folder there.
+    /// Write the result as a page with figures, `index.html` in this folder.
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     #[command(flatten)]
@@ -148,7 +147,7 @@ struct OfEquations<'a> {
 impl IdentifyArguments {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if self.corner.is_some() && self.form == FormArgument::Acceleration {
-            let reason = "`--corner` is of the filtered form; add `--form filtered`";
+            let reason = "`--corner` belongs to the filtered form; add `--form filtered`";
             return Err(Error::Argument(reason.to_owned()));
         }
         self.check_options()?;
@@ -218,7 +217,7 @@ impl IdentifyArguments {
             .as_ref()
             .map(|log| form.errors(&estimate, log))
             .transpose()?;
-        progress.step("asking whether columns are as the spec says");
+        progress.step("checking that columns agree with the spec");
         let identify = Identify {
             at_turns: estimate.at_turns(),
             ..identify

@@ -37,8 +37,8 @@ pub(super) fn pulled(estimate: &Estimate) -> Option<String> {
     let pulled: Vec<&str> = pulled.iter().map(String::as_str).collect();
     (!pulled.is_empty()).then(|| {
         format!(
-            "nominal values of the spec move {} by more than three deviations away from where the logs would have a possible arm; see whether \
-             their units, frames and payload are those of the arm, or take them out of the spec",
+            "the spec's nominal values pull {} more than three standard deviations away from the physically possible estimate of the logs; \
+             check the units, frames and payload of these values, or remove them from the spec",
             names(&pulled)
         )
     })
@@ -113,15 +113,15 @@ fn said(all: &[Likeness], joints: &[String], is_odd: bool) -> Option<String> {
     }
     if let Some(factor) = common(all).filter(|factor| *factor > 0.0 || is_odd) {
         let what = match factor.abs() {
-            large if large >= FAR => "are they in N mm, or of a drive's count?",
+            large if large >= FAR => "are they in N mm, or in counts of the drive?",
             small if small <= 1.0 / FAR => {
-                "are they in kN m, of the motors before their gears, or currents?"
+                "are they in kN m, motor torques before the gears, or currents?"
             }
-            _ => "are their signs those of the spec's joints?",
+            _ => "do their signs agree with the spec's joints?",
         };
         return Some(format!(
-            "logged torques are about {} times those of the spec's nominal links along this motion, on all joints: {what} Units and gains are \
-             the spec's `log` and `actuator_gain`",
+            "logged torques of all joints are about {} times those of the spec's nominal links along this motion: {what} Set units and \
+             gains with `log` and `actuator_gain` in the spec",
             short(factor)
         ));
     }
@@ -133,8 +133,8 @@ fn said(all: &[Likeness], joints: &[String], is_odd: bool) -> Option<String> {
     let turned: Vec<&str> = turned.map(|(name, _)| name.as_str()).collect();
     (!turned.is_empty()).then(|| {
         format!(
-            "against that of the spec's nominal links the logged torque is the other way round on {}: are signs and order of the columns \
-             those of the spec's joints?",
+            "the logged torque has the opposite sign to that of the spec's nominal links on {}: are signs and order of the columns those of \
+             the spec's joints?",
             names(&turned)
         )
     })
@@ -190,8 +190,8 @@ fn alone(all: &[Likeness], joints: &[String]) -> Option<String> {
         .map(|(found, name)| format!("`{name}` {}", short(found.factor)))
         .collect();
     Some(format!(
-        "logged torques are those of the spec's nominal links times {}: are gains and units of {} right, and links and payload those of the spec? \
-         If it is a gain, parameters come out by as much too large or small",
+        "logged torques are those of the spec's nominal links times {}: are gains and units of {} right, and do links and payload agree \
+         with the spec? If a gain is wrong, parameters are wrong by the same factor",
         factors.join(", "),
         match alone.as_slice() {
             [one, other] => format!("`{one}` and `{other}`"),
@@ -264,6 +264,6 @@ mod tests {
         let turned = [(1.1, 0.9), (-0.9, -0.6)];
         assert_eq!(told(&turned, false), None);
         let said = told(&turned, true).expect("a sign");
-        assert!(said.contains("round on `j2`"), "{said}");
+        assert!(said.contains("nominal links on `j2`"), "{said}");
     }
 }

@@ -18,8 +18,8 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
         let error = error.to_string();
         // Where sums have lines of their own, so has what follows.
         let between = if error.contains('\n') { "\n" } else { "; " };
-        let ways = "move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
-             part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`";
+        let ways = "excite the joints concerned (`excite` designs a motion), write known values into the spec, let its nominal values split \
+                    the sums (`--method ridge`; `physical` finds a possible arm with these sums), or accept the sums: `--partial`";
         let clauses = [Some(error), standing(estimate), drowned(estimate), Some(ways.to_owned())];
         let clauses: Vec<String> = clauses.into_iter().flatten().collect();
         Error::Argument(clauses.join(between))
@@ -32,12 +32,12 @@ pub(crate) fn mixed(compiled: &Compiled) -> Option<String> {
     let mixed = compiled.mixed();
     let name = mixed.first()?;
     let (share, wrong) = match compiled.motor_torque() {
-        Some(_) => ("what is nominal of it", "as far as that is"),
-        None => ("both", "where the motor has a share in it"),
+        Some(_) => ("its nominal part", "as far as that is wrong"),
+        None => ("both", "if the motor contributes to it"),
     };
     Some(format!(
-        "`{name}` is of a motor and of its link, and the load that displaces the link has {share}; springs come out wrong {wrong}, \
-         `identify --method output-error` tells them apart"
+        "`{name}` sums a motor and its link, and the load that deflects the spring includes {share}; stiffnesses are wrong {wrong}; \
+         `identify --method output-error` separates motor and link"
     ))
 }
 
@@ -52,13 +52,10 @@ fn standing(estimate: &Estimate) -> Option<String> {
     let standing: Vec<&str> = standing.map(|(_, joint)| joint.as_str()).collect();
     let verbs = match standing.len() {
         0 => return None,
-        1 => "stands or turns nearly all the time, where dry friction holds it",
-        _ => "stand or turn nearly all the time, where dry friction holds them",
+        1 => "is at rest or reverses nearly all the time, held by dry friction",
+        _ => "are at rest or reverse nearly all the time, held by dry friction",
     };
-    Some(format!(
-        "{} {verbs} with what no law says",
-        names(&standing)
-    ))
+    Some(format!("{} {verbs} of an unknown torque", names(&standing)))
 }
 
 /// Directions of which all that is seen is noise.
@@ -69,7 +66,7 @@ fn drowned(estimate: &Estimate) -> Option<String> {
         count => format!("{count} of these directions are"),
     };
     Some(format!(
-        "{of_which} noise of the positions alone: lower `--bands` leave less of it, and `iv` needs none"
+        "{of_which} only position noise: lower `--bands` reduce it, `--method iv` avoids it"
     ))
 }
 
@@ -79,8 +76,8 @@ pub(crate) fn too_slow(estimate: &Estimate, log: &Log) -> Option<String> {
     let bands = estimate.bands.at_rate(rate_hz);
     (bands != estimate.bands).then(|| {
         format!(
-            "{}: {rate_hz:.0} samples a second are too few for the filters of the identification, so its errors are those below {:.1} Hz, in \
-             place of {:.1} Hz",
+            "{}: {rate_hz:.0} samples a second are too few for the filters of the identification, so its errors are computed below {:.1} Hz \
+             instead of {:.1} Hz",
             log.source, bands.shared_hz, estimate.bands.shared_hz
         )
     })

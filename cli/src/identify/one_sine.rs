@@ -38,8 +38,8 @@ pub(super) fn doubt(estimate: &Estimate, logs: &[Log]) -> Option<String> {
     let is_one = |other: &f64| (other - all[0]).abs() < ONE * all[0];
     (all.len() > logs.len() && all.iter().all(is_one)).then(|| {
         format!(
-            "all joints that move go along one sine, of {:.2} Hz: only small harmonics of it tell many parameters apart, and what little a model or a \
-             filter is off by may be several deviations of these; move at several frequencies (`excite` makes such a motion)",
+            "all moving joints follow one sine of {:.2} Hz: only its small harmonics separate many parameters, so a small error of the \
+             model or a filter may shift these by several standard deviations; move at several frequencies (`excite` designs such a motion)",
             all[0]
         )
     })

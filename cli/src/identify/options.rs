@@ -15,18 +15,18 @@ pub(super) enum MethodArgument {
     /// Least squares weighted joint by joint.
     #[default]
     Wls,
-    /// The same, in which samples far from the rest count less.
+    /// The same, with reduced weight of outliers.
     #[value(aliases = ["huber", "irls"])]
     Robust,
-    /// Least squares weighted by each joint's residual, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
+    /// Least squares weighted by each joint's residual, restricted to physically possible arms: positive masses and inertias, dissipative friction.
     Physical,
     /// Least squares weighted by each joint's residual, with the spec's nominal values as measurements.
     Ridge,
-    /// Total least squares: columns have errors as the torque has.
+    /// Total least squares: columns have errors like the torque.
     Tls,
-    /// Instrumental variables, and whether least squares is biased (Durbin, Wu, Hausman).
+    /// Instrumental variables, with a test whether least squares is biased (Durbin, Wu, Hausman).
     Iv,
-    /// The arm is simulated, and moves as the measured one did.
+    /// Output error: the simulated arm must move like the measured one.
     OutputError,
 }
 
@@ -48,12 +48,12 @@ impl MethodArgument {
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WeightsArgument {
-    /// The deviation of its residual.
+    /// The standard deviation of its residual.
     #[default]
     Residual,
-    /// The length of its torque.
+    /// The norm of its torque.
     TorqueNorm,
-    /// The largest size of its torque.
+    /// The largest magnitude of its torque.
     MaxTorque,
 }
 
@@ -80,10 +80,10 @@ pub(super) enum FormArgument {
 /// open curves of friction are looked for without them.
 #[derive(Debug, Args)]
 pub(crate) struct TurnOptions {
-    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says.
+    /// Leave out rows near velocity reversals of joints with dry friction, where friction laws do not hold.
     #[arg(long, conflicts_with = "judge_turns")]
     pub leave_out_turns: bool,
-    /// Leave out these rows where deviations are a third smaller without what they move the estimate by: for friction that is as its law says.
+    /// Leave out these rows only if that makes standard deviations at least a third smaller; for friction that follows its law.
     #[arg(long)]
     pub judge_turns: bool,
 }
@@ -103,7 +103,7 @@ impl TurnOptions {
 pub(super) struct RowOptions {
     #[command(flatten)]
     pub turns: TurnOptions,
-    /// Take logs as they are: spikes and holds are left where they stand.
+    /// Use logs as they are, without removing spikes and held values.
     #[arg(long)]
     pub as_logged: bool,
 }
@@ -170,11 +170,11 @@ impl IdentifyArguments {
             return self.check_simulation();
         };
         if let Some(option) = self.output_error.given() {
-            return refuse(&format!("`{option}` is of `--method output-error`"));
+            return refuse(&format!("`{option}` belongs to `--method output-error`"));
         }
         if !method.takes_weights() && self.weights != WeightsArgument::Residual {
             return refuse(&format!(
-                "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
+                "`--weights` belongs to `wls`, `robust`, `tls` and `iv`; `{}` has its own",
                 method.name()
             ));
         }
@@ -186,7 +186,7 @@ impl IdentifyArguments {
             ];
             if let Some((option, _)) = asked.into_iter().find(|(_, is_given)| *is_given) {
                 return refuse(&format!(
-                    "`{option}` is of `--method ls`, `wls` and `robust`, and wants the logs themselves, not a factor"
+                    "`{option}` belongs to `--method ls`, `wls` and `robust`, and needs the logs themselves, not a factor"
                 ));
             }
         }
@@ -204,20 +204,20 @@ impl IdentifyArguments {
             let single = [Method::Robust, Method::Total, Method::Instrumental];
             if single.contains(&method) {
                 return refuse(
-                    "`--factor` is of `--method ls`, `wls`, `ridge` and `physical`: others ask for single samples",
+                    "`--factor` works with `--method ls`, `wls`, `ridge` and `physical`: the others need single samples",
                 );
             }
         }
         if self.prior.is_some() && method != Method::Ridge {
-            return refuse("`--prior` is of `--method ridge`");
+            return refuse("`--prior` belongs to `--method ridge`");
         }
         if !self.instruments.is_empty() && method != Method::Instrumental {
-            return refuse("`--instruments` are of `--method iv`");
+            return refuse("`--instruments` belongs to `--method iv`");
         }
         if method == Method::Instrumental && self.instruments.len() != self.logs.len() {
             return refuse(&format!(
-                "`--method iv` wants a motion without noise for each log, `--instruments MOTION ..`: {} for {}; take the wanted \
-                 motion, or the log that `simulate` makes of it with the parameters of `--method wls`",
+                "`--method iv` needs a noise-free motion for each log, `--instruments MOTION ..`: {} for {}; give the commanded motion, or \
+                 the log that `simulate` makes of it with the parameters of `--method wls`",
                 output::counted(self.instruments.len(), "motion"),
                 output::counted(self.logs.len(), "log")
             ));
@@ -244,7 +244,7 @@ impl IdentifyArguments {
         match others.into_iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),
             Some((option, _)) => Err(Error::Argument(format!(
-                "`{option}` is of methods with equations; `output-error` simulates"
+                "`{option}` belongs to methods with equations; `output-error` simulates"
             ))),
         }
     }

@@ -16,8 +16,8 @@ pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "torque follows speed in another way than the friction of the spec: {}; what that moves values by is in their deviations, and `trace` \
-             asks for the law",
+            "friction depends on speed differently than the spec says: {}; standard deviations include the bias of the values, and `trace` \
+             looks for the law",
             told.join(", ")
         )
     })

@@ -205,8 +205,8 @@ impl IdentifyArguments {
         });
         if let Some(name) = open.into_iter().next() {
             return Err(Error::Argument(format!(
-                "{}: `{name}` delays the torque that drives the arm, and is not looked for by simulation; give it the value that `--method \
-                 wls` finds",
+                "{}: `{name}` delays the torque that drives the arm, which output-error does not identify; set it to the value that \
+                 `--method wls` finds",
                 compiled.model.source
             )));
         }
@@ -246,8 +246,7 @@ fn shorter_windows(asked: Option<f64>, taken: Option<f64>) -> Option<String> {
     let (asked, taken) = asked.zip(taken)?;
     (taken < asked).then(|| {
         format!(
-            "the simulated arm runs away from its logs in windows of {asked} s, so they have {taken} s: what moves slowly shows little in \
-             them"
+            "the simulated arm diverges from its logs in windows of {asked} s, so windows of {taken} s are used, which show little of slow motion"
         )
     })
 }
@@ -258,7 +257,7 @@ fn torques<'a>(
     validation: Option<&'a Judged>,
 ) -> Vec<(&'static str, &'a Errors)> {
     let judged = std::iter::once(("fitted", train));
-    let judged = judged.chain(validation.map(|judged| ("unseen", judged)));
+    let judged = judged.chain(validation.map(|judged| ("validation", judged)));
     let torques = judged.filter_map(|(of, judged)| Some((of, judged.torque.as_ref()?)));
     torques.collect()
 }
@@ -274,7 +273,7 @@ fn mended_torques(settings: &OutputError, faults: &[(String, Fault)]) -> Option<
     };
     let is_told = settings.law.is_none() && faults.iter().any(|(_, fault)| is_mended(fault));
     is_told.then(|| {
-        "torques drive the simulation, and some were replaced as faults of the log: if the drive did give them, `--as-logged` leaves them"
+        "torques drive the simulation, and some were replaced as faults of the log; if the drive did produce them, keep them with `--as-logged`"
             .to_owned()
     })
 }

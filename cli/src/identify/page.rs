@@ -45,7 +45,7 @@ pub(super) struct OnLog<'a> {
 }
 
 impl<'a> OnLog<'a> {
-    /// On the log that was not fitted, if there is one, or else on the first of those that were.
+    /// On the validation log, if there is one, or else on the first of those that were.
     pub fn of(
         arm: &'a dyn Arm,
         estimate: &'a Estimate,
@@ -53,8 +53,8 @@ impl<'a> OnLog<'a> {
         unseen: Option<&'a Log>,
     ) -> Option<Self> {
         let (log, which) = match unseen {
-            Some(log) => (log, "the log that was not fitted"),
-            None => (fitted.first()?, "the first log that was fitted"),
+            Some(log) => (log, "the validation log"),
+            None => (fitted.first()?, "the first fitted log"),
         };
         Some(Self {
             arm,
@@ -81,7 +81,7 @@ impl<'a> Evidence<'a> {
             parameters: identified(estimate),
             combinations: &estimate.combinations,
             errors: errors
-                .chain(unseen.map(|errors| ("unseen", errors)))
+                .chain(unseen.map(|errors| ("validation", errors)))
                 .collect(),
             drawn: None,
             notes: Vec::new(),
@@ -95,7 +95,7 @@ impl<'a> Evidence<'a> {
         let mut page = Page::new(
             &format!("Identification of {}", self.compiled.model.name),
             &format!(
-                "What logs tell of the arm that {} describes.",
+                "Identification of the arm that {} describes.",
                 self.spec.display()
             ),
         );
@@ -155,30 +155,32 @@ impl<'a> Evidence<'a> {
             _ => ("open", "Identified in part"),
         };
         let told = match untold {
-            0 => format!("All {count} parameters have values of their own."),
-            _ => format!("{untold} of {count} parameters have no value of their own."),
+            0 => format!("All {count} parameters are identified."),
+            _ => format!("{untold} of {count} parameters are not identified."),
         };
         let left = self.errors.iter().filter_map(|(of, errors)| {
             let joint = worst(errors)?;
             let name = &self.compiled.model.joints[joint].name;
             let percent = errors.relative_percent[joint];
             Some(match errors.relative_percent.len() {
-                1 => format!("{percent:.2} % of the torque of `{name}` is left ({of})."),
-                _ => format!("Most is left of `{name}`: {percent:.2} % of its torque ({of})."),
+                1 => format!("Residual: {percent:.2} % of the torque of `{name}` ({of})."),
+                _ => format!("Largest residual: {percent:.2} % of the torque of `{name}` ({of})."),
             })
         });
-        let elsewhere =
-            (!of_logs.is_empty()).then(|| "How files were read is noted under Data.".to_owned());
+        let elsewhere = (!of_logs.is_empty())
+            .then(|| "Notes on how files were read are under Data.".to_owned());
         let sentences = std::iter::once(told).chain(left).chain(elsewhere);
         let sentences: Vec<String> = sentences.collect();
         page.verdict(class, word, &sentences.join(" "));
         if !of_result.is_empty() {
-            page.part("What to look at");
+            page.part("What to check");
             page.list(of_result);
         }
         if let Some(next) = next {
             page.part("Next");
-            page.text("What is left, is it noise, or something that the spec lacks? This asks:");
+            page.text(
+                "Is the residual noise, or does the spec lack an effect? This command finds out:",
+            );
             page.preformatted(next);
         }
     }
@@ -192,7 +194,7 @@ impl<'a> Evidence<'a> {
 
     fn errors(&self, page: &mut Page) {
         if self.errors.is_empty() {
-            page.text("No torque is computed from equations: least squares finds no filters for these logs.");
+            page.text("Torques from equations are missing: least squares finds no filters for these logs.");
             return;
         }
         self.bars(page);
@@ -216,14 +218,14 @@ impl<'a> Evidence<'a> {
             std::iter::once(joint.name.clone()).chain(cells).collect()
         });
         page.table(
-            "RMSE and MAE: how far the torque that is computed is from the measured one, root of the mean square and mean, in N m (prismatic joints: N). \
-             RMS%: which part of a joint's torque is left, slower than the filters' cutoff. NRMSE fit: 100 % leaves nothing, 0 % is no better than a constant. \
-             The first and the last second do not count.",
+            "RMSE and MAE: root mean square and mean absolute error of the computed torque, in N m (prismatic joints: N). RMS%: residual \
+             relative to the joint's torque, below the filters' cutoff. NRMSE fit: 100 % is exact, 0 % is no better than a constant. The \
+             first and the last second do not count.",
             &heads.iter().map(String::as_str).collect::<Vec<_>>(),
             &rows.collect::<Vec<Vec<String>>>(),
         );
         if self.errors.len() == 1 {
-            page.text("Give --validate for a log that is not fitted.");
+            page.text("Give a validation log with --validate.");
         }
     }
 
@@ -261,7 +263,7 @@ impl<'a> Evidence<'a> {
         page.figures(
             &[bars.svg()],
             &legend.collect::<Vec<_>>(),
-            "Which part of the torque of a joint is left, slower than the cutoff of the filters (RMS% of the table).",
+            "Residual relative to the joint's torque, below the cutoff of the filters (RMS% of the table).",
         );
     }
 
@@ -273,7 +275,7 @@ impl<'a> Evidence<'a> {
             which,
         }) = self.drawn
         else {
-            page.text("No log is at hand to be drawn: those that are fitted are read in pieces. Give --validate.");
+            page.text("No log to draw: the fitted logs were read piece by piece. Give --validate.");
             return Ok(());
         };
         page.text(&format!("On {which}, {}.", log.source));
@@ -310,7 +312,7 @@ impl<'a> Evidence<'a> {
             ]
         });
         page.table(
-            "What the logs tell of parameters that have no value of their own",
+            "Parameters that are not identified alone",
             &["sum", "value", "deviation"],
             &rows.collect::<Vec<_>>(),
         );
@@ -331,7 +333,7 @@ impl<'a> Evidence<'a> {
             ]
         });
         page.table(
-            "Faults of the logs, which were mended where that can be",
+            "Faults of the logs, repaired if possible",
             &["log", "kind", "channel", "what was found"],
             &rows.collect::<Vec<_>>(),
         );

@@ -68,7 +68,7 @@ impl IdentifyArguments {
         let results = Results::claim(&mut files, self)?;
         if let Some([loaded, unloaded]) = twice::with_and_without(&self.logs, &self.payload) {
             return Err(Error::Argument(format!(
-                "--payload: {} is the same log as {}, which is without the payload: give a log of the arm that carries it",
+                "--payload: {} is the same log as {}, which has no payload: give a log of the arm with the payload",
                 loaded.display(),
                 unloaded.display()
             )));
@@ -228,7 +228,7 @@ impl Judged {
             ("with payload", &self.carrying),
         ];
         let validation = self.validation.as_ref();
-        let validation = validation.map(|errors| ("validation, with it", errors));
+        let validation = validation.map(|errors| ("validation, with the payload", errors));
         both.into_iter().chain(validation).collect()
     }
 
@@ -267,12 +267,12 @@ fn parameters(found: &Carried) -> Vec<Parameter<'_>> {
 fn told(found: &Carried) -> String {
     let (mass, center) = found.mass_and_center();
     let Some([mass, std]) = mass else {
-        return format!("payload on {}: its mass is not told\n", found.link);
+        return format!("payload on {}: its mass is not identified\n", found.link);
     };
     let axes = ["x", "y", "z"].into_iter().zip(center);
     let places = axes.map(|(axis, place)| match place {
         Some([place, std]) => format!("{axis} {place:.4} m +- {std:.1e}"),
-        None => format!("{axis} not told"),
+        None => format!("{axis} not identified"),
     });
     let places: Vec<String> = places.collect();
     format!(
@@ -287,7 +287,7 @@ fn negative(found: &Carried) -> Option<String> {
     let [mass, std] = found.mass_and_center().0?;
     (mass < -3.0 * std).then(|| {
         format!(
-            "the payload on {} is {mass:.4} kg: are logs with and without it in each other's place?",
+            "the payload on {} is {mass:.4} kg: are the logs with and without it swapped?",
             found.link
         )
     })

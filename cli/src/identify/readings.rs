@@ -104,9 +104,9 @@ impl Reading {
                     Channel::Torque => ("torque", "tau", "Nm"),
                 };
                 [
-                    format!("the {what} of `{}` the other way round", joints[*joint]),
+                    format!("the {what} of `{}` with the opposite sign", joints[*joint]),
                     format!(
-                        "is its sign that of the spec's joint? The spec may turn it: `log {{ {column} = \"{column}{}\": -1 {unit}, ..; }}`",
+                        "does its sign agree with the spec's joint? Invert it in the spec: `log {{ {column} = \"{column}{}\": -1 {unit}, ..; }}`",
                         joint + 1
                     ),
                 ]
@@ -120,14 +120,14 @@ impl Reading {
                 };
                 let moved = (0..order.len()).filter(|&joint| order[joint] != joint);
                 let how = if let [one, other] = moved.collect::<Vec<_>>()[..] {
-                    format!("of `{}` and `{}` exchanged", joints[one], joints[other])
+                    format!("of `{}` and `{}` swapped", joints[one], joints[other])
                 } else {
                     let order: Vec<&str> = order.iter().map(|&k| joints[k].as_str()).collect();
                     format!("in the order {}", names(&order))
                 };
                 [
                     format!("{columns} {how}"),
-                    "is the order of the columns that of the spec's joints? The spec's `log` says which column is whose".to_owned(),
+                    "do the columns have the order of the spec's joints? Assign columns to joints in the spec's `log`".to_owned(),
                 ]
             }
         }
@@ -198,7 +198,7 @@ pub(crate) fn others(
     let joint = (0..left.len()).max_by(|a, b| fall(a).total_cmp(&fall(b)))?;
     let [what, question] = best.reading.said(&found.joints);
     Some(format!(
-        "with {what} the model leaves {:.1} % of the torque of `{}`, as logged {:.0} %: {question}",
+        "with {what} the residual is {:.1} % of the torque of `{}`, as logged {:.0} %: {question}",
         left[joint], found.joints[joint], as_logged[joint]
     ))
 }

@@ -39,7 +39,7 @@ impl Streams<'_> {
         let mut remembers = effects.filter(|effect| !effect.definition.states.is_empty());
         if let Some(effect) = remembers.next() {
             return Err(Error::Argument(format!(
-                "{}:{}: `{}` remembers, and a log that is read piece by piece forgets; identify without `--factor`",
+                "{}:{}: `{}` has a memory, which a log read piece by piece loses; identify without `--factor`",
                 model.source, effect.line, effect.definition.name
             )));
         }

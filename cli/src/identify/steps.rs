@@ -25,9 +25,9 @@ pub(super) fn doubt(joints: &[String], logs: &[Log]) -> Option<String> {
     let stepping: Vec<&str> = stepping.map(|(_, name)| name.as_str()).collect();
     (!stepping.is_empty()).then(|| {
         format!(
-            "torques of {} stand and jump from one sample to the next: where a sample holds until the next one, as a command does, the arm felt \
-             it half a sample later, and beside friction an inertia is off by half a sample of damping without a larger error; \
-             `--method output-error` holds torques, and asks which way they go; or log at a higher rate",
+            "torques of {} are constant, then jump from one sample to the next: if each is a command held until the next sample, the arm \
+             felt it half a sample later, and inertias and friction are biased without a larger error; use `--method output-error`, which \
+             tries held torques, or log at a higher rate",
             names(&stepping)
         )
     })

@@ -32,7 +32,7 @@ pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String 
         )),
     };
     let rests = if estimate.held.iter().any(|rows| *rows > 0) {
-        ", without the rests of joints that dry friction holds"
+        ", without rows at rest held by dry friction"
     } else {
         ""
     };

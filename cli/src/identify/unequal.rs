@@ -32,8 +32,8 @@ pub(super) fn doubt(joints: &[String], logs: &[Log], errors: &[Errors]) -> Optio
     let told: Vec<String> = told.collect();
     (!told.is_empty()).then(|| {
         format!(
-            "logs leave unequal parts of the torque, by RMSE: {}; all rows of a joint count alike, so what is left of the worse log is in \
-             values and deviations: see what it has that the other has not, or fit the better one alone",
+            "residuals of the logs differ, by RMSE: {}; all rows of a joint have equal weight, so the worse log affects values and standard \
+             deviations: find out what differs in it, or fit the better one alone",
             told.join("; ")
         )
     })

@@ -96,7 +96,7 @@ pub(super) fn doubts(estimate: &Estimate, compiled: &Compiled, resting: &[&str])
         all.iter().partition(|name| fitting.contains(name));
     let hardly = |names_of: &[&str]| {
         format!(
-            "the logs hardly tell {} of {}, whose deviations are of the size of such parameters themselves: {}",
+            "the logs hardly determine {} of {}, whose standard deviations are as large as typical values: {}",
             names_of.len(),
             counted(estimate.parameters.len(), "parameter"),
             names(names_of)
@@ -109,8 +109,8 @@ pub(super) fn doubts(estimate: &Estimate, compiled: &Compiled, resting: &[&str])
         let ill = joints.filter(|(k, (_, percent))| **percent > MISFIT && shown.contains(k));
         let ill = ill.map(|(_, (joint, percent))| format!("`{joint}` {percent:.0} %"));
         format!(
-            "{}; the motion would tell them if {FITS:.0} % of the torque were left, but the model does not fit and leaves {}; see first what else \
-             is noted here, whether signs, order, units and time of the columns are right, and what `trace` finds",
+            "{}; the motion would determine them with a residual of {FITS:.0} % of the torque, but the model does not fit: {}; first follow \
+             the other notes, check signs, order, units and time of the columns, and run `trace`",
             hardly(&misfit),
             ill.collect::<Vec<_>>().join(", ")
         )
@@ -122,7 +122,7 @@ pub(super) fn doubts(estimate: &Estimate, compiled: &Compiled, resting: &[&str])
             all => format!("; joints {} hardly move in them", names(all)),
         };
         format!(
-            "{}{who}; move all joints further and faster, `excite` makes a motion that tells them",
+            "{}{who}; move all joints further and faster: `excite` designs a motion that determines them",
             hardly(&moved)
         )
     });

@@ -65,8 +65,7 @@ impl Links {
         let is_rigid = linkage.springs.is_empty() && linkage.placed.is_empty();
         if let (false, Some(name)) = (is_rigid, compiled.mixed().first()) {
             return Err(Error::Argument(format!(
-                "{}: motors and links move apart, and base parameter `{name}` is of both; give standard parameters, whose values \
-                 are known one by one",
+                "{}: motors and links move separately, but base parameter `{name}` sums both; give standard parameters",
                 compiled.model.source
             )));
         }

@@ -98,7 +98,7 @@ impl Springs {
             // What channels do to it is seen when it moves.
             if !falls && !linkage.is_timed {
                 return Err(Error::Argument(format!(
-                    "{}: joint {}: its spring gives way against its load; `position(j)` has to fall with `rigid_torque(j)`, as \
+                    "{}: joint {}: its spring deflects against its load; `position(j)` must decrease with `rigid_torque(j)`, as \
                      `-rigid_torque(j)/k` with `k` above 0",
                     compiled.model.source, compiled.model.joints[joint].name
                 )));

@@ -11,9 +11,9 @@ use robot_model_spec::model::Convention;
 use crate::output::OutFile;
 use crate::{Error, output};
 
-/// Write a spec to start from, whose comments say what each line is.
+/// Write a spec to start from, with comments that explain each line.
 ///
-/// It passes `check` as it is. All its numbers are made up: put those of the arm in their place. From a URDF, `import` writes a spec.
+/// It passes `check` as it is. Its numbers are placeholders: replace them with those of your arm. To start from a URDF, use `import`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model new Picker --joints 6 --convention modified_dh
@@ -23,19 +23,19 @@ pub(crate) struct New {
     /// The robot's name, such as `Picker`.
     #[arg(value_parser = name)]
     name: String,
-    /// The spec to write; without it the robot's name with `.robot` behind it.
+    /// The spec to write; default: the robot's name with `.robot` appended.
     #[arg(short, long, value_name = "SPEC")]
     output: Option<PathBuf>,
-    /// How many joints.
+    /// Number of joints.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=40))]
     joints: u8,
-    /// How frames are written.
+    /// Convention of the frames.
     #[arg(long, value_enum, default_value_t, conflicts_with = "energies")]
     convention: ConventionArgument,
-    /// Kinetic and potential energy in place of joints and links: for arms that are no serial chain. At most 6 coordinates.
+    /// Kinetic and potential energy instead of joints and links, for arms that are not serial chains. At most 6 coordinates.
     #[arg(long)]
     energies: bool,
-    /// Put it in the place of a file that is there already.
+    /// Replace an existing file.
     #[arg(long)]
     force: bool,
 }
@@ -71,9 +71,7 @@ impl From<ConventionArgument> for Convention {
 fn name(text: &str) -> Result<String, String> {
     let is_path = text.contains(['/', '\\']) || text.contains('.');
     if is_path || !text.contains(|c: char| c.is_ascii_alphabetic()) {
-        return Err(
-            "write the robot's name, such as `Picker`, and its file behind `-o`".to_owned(),
-        );
+        return Err("write the robot's name, such as `Picker`, and its file after `-o`".to_owned());
     }
     Ok(robot_model_spec::upper_camel(text))
 }
@@ -105,7 +103,7 @@ impl New {
         robot_model_spec::load(&shown, &text)?;
         file.commit(text.as_bytes())?;
         output::print(&format!(
-            "wrote {shown}: put the arm's numbers in, then `robot-model check {shown}`\n"
+            "wrote {shown}: fill in the arm's numbers, then run `robot-model check {shown}`\n"
         ))
     }
 }

@@ -14,9 +14,9 @@ struct Lines(String);
 impl Lines {
     fn new(file: &str) -> Self {
         let mut lines = Self(String::new());
-        lines.line("// All numbers are made up: put those of your arm in their place.");
-        lines.line(&format!("// `robot-model check {file}` says every mistake with its place, `show` the equations that come of it."));
-        lines.line("// Plain numbers are in m, kg, s, rad, N m; others have their unit behind them: 90 deg, 350 mm, 30 rpm.");
+        lines.line("// All numbers are placeholders: replace them with those of your arm.");
+        lines.line(&format!("// `robot-model check {file}` reports every mistake with its place; `show` prints the resulting equations."));
+        lines.line("// Plain numbers are in m, kg, s, rad, N m; other units follow the number: 90 deg, 350 mm, 30 rpm.");
         lines
     }
 
@@ -44,9 +44,9 @@ pub(super) fn of_chain(name: &str, file: &str, joints: usize, convention: Conven
         frame_of(convention),
     );
     lines.line("");
-    lines.line("    // Joints from the base to the tip. `revolute` turns, `prismatic` slides (then lengths in place of angles, N in place of N m).");
+    lines.line("    // Joints from the base to the tip: `revolute`, or `prismatic` (then lengths instead of angles, N instead of N m).");
     lines.line(&format!("    // {}", frame_keys(convention)));
-    lines.line("    // Limits are optional; `excite` keeps them. `actuator_gain = 0.1 Nm/A;` where logs have currents in place of torques.");
+    lines.line("    // Limits are optional; `excite` keeps them. Add `actuator_gain = 0.1 Nm/A;` if logs have currents instead of torques.");
     for joint in 1..=joints {
         lines.line(&format!(
             "    joint joint{joint}: revolute {{ {} position = -150 deg .. 150 deg; velocity = 120 deg/s; acceleration = 10; torque = 50 Nm; }}",
@@ -54,8 +54,8 @@ pub(super) fn of_chain(name: &str, file: &str, joints: usize, convention: Conven
         ));
     }
     lines.line("");
-    lines.line("    // Links have the names of their joints. `nominal` inertials are values from CAD, identified all the same; `fixed` ones are");
-    lines.line("    // exact, and kept. A link without a line is identified without a first value. The inertia is about the center of mass:");
+    lines.line("    // Links have the names of their joints. `nominal` inertials are CAD values, which are still identified; `fixed` ones are");
+    lines.line("    // exact and kept. A link without a line is identified without start values. The inertia is about the center of mass:");
     lines.line("    // [ixx, ixy, ixz, iyy, iyz, izz], kg m^2.");
     for joint in 1..=joints {
         let status = if joint == joints && joints > 1 {
@@ -85,7 +85,7 @@ pub(super) fn of_energies(name: &str, file: &str, joints: usize) -> String {
         "angles, rad; `x: m` is a length",
     );
     lines.line("    // Unknown, to be identified: masses, moments of inertia about the centers of mass, distances of these from the joints.");
-    lines.line("    // A value is a first one, from CAD: `m1 = 2 kg`. Products that occur, such as m1*c1^2, are what logs tell.");
+    lines.line("    // Values are start values, from CAD: `m1 = 2 kg`. Logs determine products, such as m1*c1^2.");
     for k in 1..=joints {
         lines.line(&format!("    parameters m{k}: kg, I{k}: kg*m^2, c{k}: m;"));
     }
@@ -99,7 +99,7 @@ pub(super) fn of_energies(name: &str, file: &str, joints: usize) -> String {
             "from this joint to the next",
         );
     }
-    lines.line("    // Where the centers of mass are; the first coordinate is measured from the vertical, the others from the bar before.");
+    lines.line("    // Positions of the centers of mass; the first coordinate is measured from the vertical, the others from the previous bar.");
     for k in 1..=joints {
         let place = |function: &str, sign: &str| {
             let bars = (1..k).map(|bar| format!("l{bar}*{function}({})", angle(bar)));
@@ -133,7 +133,7 @@ pub(super) fn of_energies(name: &str, file: &str, joints: usize) -> String {
         &format!("    potential = {};", potential.join(" + ")),
         "J; free of rates",
     );
-    lines.line("    // Limits are optional; `excite` keeps them. `actuator_gain = 0.1 Nm/A;` where logs have currents in place of torques.");
+    lines.line("    // Limits are optional; `excite` keeps them. Add `actuator_gain = 0.1 Nm/A;` if logs have currents instead of torques.");
     for k in 1..=joints {
         lines.line(&format!(
             "    limits q{k} {{ position = -90 deg .. 90 deg; velocity = 120 deg/s; acceleration = 10; torque = 50 Nm; }}"
@@ -154,12 +154,12 @@ fn angle(last: usize) -> String {
 const fn frame_of(convention: Convention) -> &'static str {
     match convention {
         Convention::StandardDh => {
-            "frames are Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha), behind each joint"
+            "frames are Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha), after each joint"
         }
         Convention::ModifiedDh => {
-            "frames are Trans_x(a) Rot_x(alpha) Rot_z(theta) Trans_z(d), in front of each joint"
+            "frames are Trans_x(a) Rot_x(alpha) Rot_z(theta) Trans_z(d), before each joint"
         }
-        Convention::Origin => "frames are placed in the frame before, as in a URDF",
+        Convention::Origin => "frames are placed in the previous frame, as in a URDF",
     }
 }
 
@@ -196,8 +196,8 @@ fn logs(lines: &mut Lines, joints: usize) {
         columns.join(", ")
     };
     lines.line("");
-    lines.line("    // Logs have the columns time, q1.., tau1.. in SI units, or those that are said here, with their units, one a joint; a file");
-    lines.line("    // `robot-model.toml` beside the logs can say the same.");
+    lines.line("    // Logs have the columns time, q1.., tau1.. in SI units, or the columns and units given here, one per joint; a file");
+    lines.line("    // `robot-model.toml` beside the logs can give them too.");
     lines.line("    // log {");
     lines.line("    //     time = \"stamp\": ms;");
     lines.line(&format!("    //     q = {};", family("angle", "deg")));
@@ -209,8 +209,9 @@ fn logs(lines: &mut Lines, joints: usize) {
 /// The declared effects, and all that may be declared.
 fn effects(lines: &mut Lines, first: &str) {
     lines.line("");
-    lines.line("    // What acts beside rigid bodies: on all joints, on some (`on a, b`), on pairs (`on (a, b)`), or on the arm as a whole.");
-    lines.line(&format!("    // A shape parameter is fixed by `stribeck(vs = 0.1) on {first};`, and identified without a value. Do not declare what you only"));
+    lines.line("    // Effects beside rigid bodies: on all joints, on some (`on a, b`), on pairs (`on (a, b)`), or on the arm as a whole.");
+    lines.line(&format!("    // `stribeck(vs = 0.1) on {first};` fixes a shape parameter; without a value it is identified. Do not declare \
+                         effects you only"));
     lines.line("    // suspect: `trace` looks for it in the logs.");
     lines.line("    effects {");
     lines.line("        viscous_friction on all;");

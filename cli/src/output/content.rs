@@ -69,7 +69,7 @@ impl Content {
             .and_then(|file| file.take(most).read_to_end(&mut start))
             .ok()?;
         let is_other = !start.trim_ascii().is_empty() && !self.begins(&start);
-        is_other.then(|| format!("what is there is no {}", self.name()))
+        is_other.then(|| format!("the existing file is not a {}", self.name()))
     }
 
     /// Whether a file that begins so, or is so where it is JSON, is of this kind.

@@ -75,9 +75,7 @@ impl Files {
         if let Some(output) = same(&self.outputs) {
             return Err(refused(
                 path,
-                &format!(
-                    "it is the same file as the output `{output}`; give each a name of its own"
-                ),
+                &format!("it is the same file as the output `{output}`; give each its own name"),
             ));
         }
         Ok(())

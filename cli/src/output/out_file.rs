@@ -27,7 +27,7 @@ impl OutFile {
     /// Makes sure that the file can be written.
     pub(crate) fn create(path: &Path) -> Result<Self, Error> {
         if path.file_name().is_none() {
-            return Err(refused(path, "it names no file"));
+            return Err(refused(path, "it does not name a file"));
         }
         let target = match fs::symlink_metadata(path) {
             Ok(found) => existing(path, found.is_symlink())?,
@@ -35,7 +35,7 @@ impl OutFile {
         };
         let folder = folder_of(&target);
         if !folder.exists() {
-            let reason = format!("there is no folder `{}`; make it first", folder.display());
+            let reason = format!("there is no folder `{}`; create it first", folder.display());
             return Err(refused(path, &reason));
         }
         if !folder.is_dir() {
@@ -78,7 +78,7 @@ impl OutFile {
             });
         };
         let reason =
-            format!("{other}, and would be lost; give another name, or take that file away first");
+            format!("{other}, and would be lost; give another name, or remove that file first");
         Err(refused(&self.path, &reason))
     }
 
@@ -144,7 +144,7 @@ impl OutFile {
         let is_other = length > 0 && (length != content.len() as u64 || !is_same(before, content));
         is_other.then(|| {
             format!(
-                "note: `{}` was there before; it has this run's result in place of that",
+                "note: `{}` existed; this run's result replaces it",
                 self.path.display()
             )
         })
@@ -188,14 +188,14 @@ fn is_same(file: File, content: &[u8]) -> bool {
 fn there_already(path: &Path) -> Error {
     refused(
         path,
-        "there is such a file already; give another name, or `--force` to put this one in its place",
+        "this file exists; give another name, or `--force` to replace it",
     )
 }
 
 /// The regular file, open to writing, that is at a path already.
 fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
     let about = fs::metadata(path)
-        .map_err(|error| refused(path, &format!("it is a link that leads nowhere: {error}")))?;
+        .map_err(|error| refused(path, &format!("it is a broken link: {error}")))?;
     if about.is_dir() {
         return Err(refused(path, "it is a folder; name a file in it"));
     }
@@ -204,13 +204,13 @@ fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
     if !about.is_file() || of_the_system {
         return Err(refused(
             path,
-            "it is no regular file; results appear in one step, which takes a file",
+            "it is not a regular file; results are written in one step, which needs one",
         ));
     }
     if about.permissions().readonly() {
         return Err(refused(
             path,
-            "it is read-only; give another name, or let it be written first",
+            "it is read-only; give another name, or make it writable",
         ));
     }
     OpenOptions::new()

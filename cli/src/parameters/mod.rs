@@ -27,7 +27,7 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         let from_spec: Vec<&str> = values.from_spec.iter().map(String::as_str).collect();
         if !from_spec.is_empty() {
             output::say(&format!(
-                "note: {source}: no value for {}: the spec's for {}",
+                "note: {source}: no value for {}: the spec's value is used for {}",
                 counted(from_spec.len(), "parameter"),
                 names(&from_spec)
             ));
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn what_is_no_number_is_named() {
         assert_eq!(
-            no_number("`a.m` is text, where a number is wanted"),
+            no_number("`a.m` is text, but must be a number"),
             Some("a.m")
         );
         assert_eq!(no_number("`a.m` is null; write its value"), Some("a.m"));

@@ -45,7 +45,7 @@ pub(crate) fn over(
         return Ok(None);
     }
     output::say(&format!(
-        "note: {}: no value for {}: those of `--method wls` on the same logs for {}",
+        "note: {}: no value for {}: the value of `--method wls` on the same logs is used for {}",
         path.display(),
         counted(taken.len(), "parameter"),
         names(&taken)

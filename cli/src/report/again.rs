@@ -18,7 +18,7 @@ const PIECE: usize = 1 << 16;
 pub(crate) fn again(page: &mut Page, inputs: &[PathBuf]) -> Result<(), Error> {
     page.section("Again");
     page.text(&format!(
-        "The same page from the same files, by robot-model {}:",
+        "To make this page again from the same files, with robot-model {}:",
         env!("CARGO_PKG_VERSION")
     ));
     page.preformatted(&invocation());
@@ -31,7 +31,7 @@ pub(crate) fn again(page: &mut Page, inputs: &[PathBuf]) -> Result<(), Error> {
     };
     let rows = inputs.iter().map(row).collect::<Result<Vec<_>, Error>>()?;
     page.table(
-        "Files that were read; CRC-32 is that of zip and gzip: other files have another one but for one case of four billion.",
+        "Input files; the CRC-32 checksum (as in zip and gzip) identifies their content.",
         &["file", "bytes", "CRC-32"],
         &rows,
     );

@@ -24,7 +24,7 @@ impl ReportFolder {
         if folder.is_file() {
             return Err(Error::Write {
                 path: folder.to_owned(),
-                reason: "it is a file, and `--report` takes a folder".to_owned(),
+                reason: "it is a file, but `--report` takes a folder".to_owned(),
             });
         }
         // It goes away again behind the claim.
@@ -66,7 +66,7 @@ fn made(folder: &Path) -> Result<MadeFolder, Error> {
         let file = around.find(|path| path.is_file());
         let reason = match file {
             Some(file) => format!("`{}` is not a folder", file.display()),
-            None => format!("the folder of a report cannot be made: {error}"),
+            None => format!("the folder of a report cannot be created: {error}"),
         };
         Error::Write {
             path: folder.to_owned(),

@@ -54,10 +54,10 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
     });
     let are_drawn = parameters.iter().any(|one| one.interval.is_some());
     let intervals = if are_drawn {
-        "Intervals hold the value with 95 %: `from` and `to` are those of the draws of `--bootstrap`, and where there is none 1.96 deviations to either \
-         side; the deviation is that of the formula. `-` where the logs do not tell it."
+        "95 % confidence intervals: `from` and `to` are from the draws of `--bootstrap`, or 1.96 standard deviations to either side if \
+         there are none; the standard deviation is from the formula. `-`: not identified."
     } else {
-        "Intervals hold the value with 95 %: from 1.96 deviations below it to 1.96 above. `-` where the logs do not tell it."
+        "95 % confidence intervals: 1.96 standard deviations to either side. `-`: not identified."
     };
     page.cards(
         intervals,
@@ -188,13 +188,13 @@ pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
             &[map],
             &legend,
             &format!(
-                "Which parameters of links are in which base parameter: a row is a base parameter, a column of a link one of {elements}, from \
-                 left to right; the larger a square, the larger its factor."
+                "Link parameters in each base parameter: a row is a base parameter, the columns of a link are {elements}, from left to \
+                 right; a larger square is a larger factor."
             ),
         );
     }
     page.table(
-        "Torques tell these sums of the links' parameters, and no more.",
+        "Torques determine only these sums of the links' parameters.",
         &["base parameter", "sum"],
         &rows,
     );
@@ -203,10 +203,7 @@ pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
         .map(|&k| compiled.standard[k].name.as_str())
         .collect();
     if !silent.is_empty() {
-        page.text(&format!(
-            "Without influence on any torque: {}.",
-            silent.join(", ")
-        ));
+        page.text(&format!("No torque depends on: {}.", silent.join(", ")));
     }
 }
 
@@ -230,7 +227,7 @@ fn map(compiled: &Compiled) -> Option<String> {
         (!squares.is_empty()).then_some((name.as_str(), squares))
     });
     let map = Map {
-        label: "which parameters of the links each base parameter is a sum of; the table below has the numbers",
+        label: "link parameters summed in each base parameter; the table below has the numbers",
         links: links.iter().map(|link| link.name.as_str()).collect(),
         columns,
         rows: rows.collect(),
@@ -255,8 +252,8 @@ pub(crate) fn figures(
                 &drawn.of_joint(joint, name),
                 &legend,
                 &format!(
-                    "{name}: torque over time, measured and of the {last}, raw samples; residual, which is measured minus predicted torque, over \
-                     velocity, position, load and time, in the band of the fit; root of its spectral density, raw samples."
+                    "{name}: measured torque and that of the {last} over time, raw samples; residual (measured minus predicted torque) over \
+                     velocity, position, load and time, in the band of the fit; square root of its spectral density, raw samples."
                 ),
             );
         });

@@ -21,7 +21,7 @@ use crate::parameters::{self, Values};
 use crate::progress::Progress;
 use crate::spec::compile;
 
-/// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
+/// Simulate an arm with all declared effects, with or without a controller, and write its log.
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -33,33 +33,32 @@ use crate::spec::compile;
 pub(crate) struct Simulate {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Wanted motion, CSV: `time,q1..qn[,dq1..][,ddq1..][,extra]`, SI units; missing derivatives are those of a spline, extra columns
-    /// are what effects read. The arm starts where it starts.
+    /// Desired motion, CSV: `time,q1..qn[,dq1..][,ddq1..][,extra]`, SI units; missing derivatives come from a spline, extra columns are
+    /// channels that effects read. The arm starts at its first row.
     #[arg(long, value_name = "TRAJ.csv")]
     trajectory: PathBuf,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// The log to write: CSV, `time,q1..qn,dq1..dqn,tau1..taun[,extra]`; where its name ends in `.mcap`, a bag of ROS 2 with joint
-    /// states.
+    /// The log to write: CSV, `time,q1..qn,dq1..dqn,tau1..taun[,extra]`; if its name ends in `.mcap`, a bag of ROS 2 with joint states.
     #[arg(long, value_name = "LOG.csv|LOG.mcap")]
     out: PathBuf,
-    /// Who decides the torque.
+    /// The controller.
     #[arg(long, value_enum, default_value_t)]
     controller: ControllerArgument,
-    /// Torques to apply in place of a controller, CSV: `time,tau1..taun`, joint torques in N m or N.
+    /// Torques to apply instead of a controller, CSV: `time,tau1..taun`, joint torques in N m or N.
     #[arg(long, value_name = "FILE.csv", conflicts_with = "controller")]
     torque: Option<PathBuf>,
-    /// Natural frequency of the controller's error, rad/s; 60 without it.
+    /// Natural frequency of the controller's error, rad/s; default 60.
     #[arg(long, value_name = "W", allow_negative_numbers = true)]
     frequency: Option<f64>,
-    /// Damping of the controller's error, 1 for critical, which it is without it.
+    /// Damping ratio of the controller's error; default 1 (critical).
     #[arg(long, value_name = "D", allow_negative_numbers = true)]
     damping: Option<f64>,
     /// The controller's own parameter values; without it those of the arm.
     #[arg(long, value_name = "FILE.json")]
     control_parameters: Option<PathBuf>,
-    /// Samples of the controller, Hz; its torque is held between them.
+    /// Sample rate of the controller, Hz; its torque is held between samples.
     #[arg(
         long,
         value_name = "HZ",
@@ -67,10 +66,10 @@ pub(crate) struct Simulate {
         default_value_t = 1000.0
     )]
     rate: f64,
-    /// Samples of the log, Hz; without it those of the controller.
+    /// Sample rate of the log, Hz; default: that of the controller.
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     log_rate: Option<f64>,
-    /// Samples of the controller that pass before its torque acts; its first one acts until then.
+    /// Delay of the torque, in samples of the controller; its first torque acts until then.
     #[arg(
         long,
         value_name = "SAMPLES",
@@ -78,10 +77,10 @@ pub(crate) struct Simulate {
         default_value_t = 0
     )]
     delay: u16,
-    /// How long, s; without it as long as the trajectory, whose end is held beyond.
+    /// Duration, s; default: that of the trajectory, whose end is held beyond.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Encoders of 2^BITS steps a turn (prismatic joints: a meter); without it positions are exact.
+    /// Encoders with 2^BITS steps per turn (prismatic joints: per meter); without it positions are exact.
     #[arg(long, value_name = "BITS", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(4..=40))]
     encoder_bits: Option<u8>,
     /// Standard deviation of the noise of positions, rad or m.
@@ -101,22 +100,22 @@ pub(crate) struct Simulate {
         default_value_t = 0.0
     )]
     torque_noise: f64,
-    /// Of all noise: the same seed, the same log.
+    /// Seed of all noise: the same seed gives the same log.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Write what the simulation took, and how far the arm was from the trajectory, as JSON.
+    /// Write the effort of the simulation and the tracking error as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 enum ControllerArgument {
-    /// Each joint by itself, with gains for the least inertia that it has along the motion, all other joints free.
+    /// Each joint alone, with gains for its smallest inertia along the motion with all other joints free.
     #[default]
     Pd,
-    /// The torque of the model for what is wanted, and PD on the error.
+    /// The model's torque for the desired motion, and PD on the error.
     ComputedTorque,
-    /// No torque: the arm is let go.
+    /// No torque: the arm falls freely.
     None,
 }
 
@@ -159,8 +158,7 @@ impl Simulate {
             && self.controller != ControllerArgument::ComputedTorque
         {
             return Err(Error::Argument(
-                "`--control-parameters` are those of the model of `--controller computed-torque`; \
-                 another controller has none"
+                "`--control-parameters` belongs to `--controller computed-torque`; other controllers have no model"
                     .to_owned(),
             ));
         }
@@ -170,7 +168,7 @@ impl Simulate {
             (has_gains, gains.iter().find(|(_, gain)| gain.is_some()))
         {
             return Err(Error::Argument(format!(
-                "`{option}` is of `--controller pd` and `computed-torque`; nothing else here has gains"
+                "`{option}` belongs to `--controller pd` and `computed-torque`; nothing else has gains"
             )));
         }
 
@@ -180,7 +178,7 @@ impl Simulate {
         if let (true, Some(channel)) = (record::is_bag(&self.out), compiled.model.inputs().first())
         {
             return Err(Error::Argument(format!(
-                "{}: a declared effect reads `{channel}`, for which joint states have no place; write the log as CSV",
+                "{}: a declared effect reads `{channel}`, which joint states cannot hold; write the log as CSV",
                 self.out.display()
             )));
         }

@@ -125,9 +125,9 @@ pub(super) fn beyond_limits(
             None => measured(&record.q[k], low, high),
         };
         for (what, found) in [
-            ("is wanted at position", position),
-            ("is wanted at velocity", velocity),
-            ("went to position", went),
+            ("has a desired position of", position),
+            ("has a desired velocity of", velocity),
+            ("reached position", went),
             ("was driven with torque", torque),
         ] {
             if let Some((time, value)) = found {

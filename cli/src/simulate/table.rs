@@ -39,7 +39,7 @@ fn read(path: &Path) -> Result<Table, Error> {
         } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
             let reason = format!(
-                "the row has {len} fields, the header has {expected_len}; give every row one field a column"
+                "the row has {len} fields, the header has {expected_len}; give every row one field per column"
             );
             refused_at(path, line, &reason)
         }
@@ -53,8 +53,7 @@ fn read(path: &Path) -> Result<Table, Error> {
     }
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
-            let reason =
-                format!("column `{name}` stands there twice; give one of them another name");
+            let reason = format!("column `{name}` appears twice; rename one of them");
             return Err(refused_at(path, 1, &reason));
         }
     }
@@ -126,7 +125,7 @@ impl Table {
             None => Ok(time),
             Some((pair, line)) => {
                 let reason = format!(
-                    "the row is of {} s, the one before it of {} s; sort the rows by time, and keep one of each",
+                    "the row has time {} s, the one before it {} s; sort the rows by time, and remove duplicates",
                     pair[1], pair[0]
                 );
                 Err(refused_at(path, *line, &reason))
@@ -142,7 +141,7 @@ impl Table {
         };
         let name = self.names.iter().find(of_joint)?;
         Some(format!(
-            "column `{name}` is of no joint: the arm has {}",
+            "column `{name}` belongs to no joint: the arm has {}",
             crate::output::counted(dof, "joint")
         ))
     }
@@ -163,7 +162,7 @@ pub(crate) fn trajectory(path: &Path, dof: usize) -> Result<Trajectory, Error> {
     if dq.is_empty() && !ddq.is_empty() {
         return Err(refused(
             path,
-            "it has accelerations and no velocities; add `dq1,..`, or leave `ddq1,..` out",
+            "it has accelerations but no velocities; add `dq1,..`, or remove `ddq1,..`",
         ));
     }
     let extra = table.names.into_iter().zip(table.columns);

@@ -27,7 +27,7 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
     for alternative in alternatives {
         writeln!(
             out,
-            "  or {} in place of {}: {:+.1} % error where it was not fitted{}",
+            "  or {} instead of {}: {:+.1} % error on folds not fitted{}",
             on_joints(closed, &alternative.kind, &alternative.joints),
             closed.verdict.findings[alternative.instead_of].kind,
             alternative.worse_percent,
@@ -91,7 +91,7 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
     let first = unbound.map(|joint| {
         format!(
-            ", once limits of `{}` and its like are in the spec (`velocity = ..`)",
+            ", after adding limits of `{}` and the other joints to the spec (`velocity = ..`)",
             joint.name
         )
     });
@@ -109,7 +109,7 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
 /// The line of an alternative for which no motion is designed.
 fn no_motion(named: &str, rival: &str, without: Without) -> String {
     format!(
-        "  no motion is designed that tells {named} from {rival}: {}; declare each in turn, and compare their errors on a log of another \
+        "  no motion is designed that separates {named} from {rival}: {}; declare each in turn and compare their errors on a log of another \
          motion (`robot-model identify --validate`)\n",
         without.words()
     )
@@ -129,16 +129,14 @@ fn commands(spec: &str, first: &str, is_one: bool, pairs: &[Pair]) -> String {
     let mut out = String::new();
     for (number, pair) in pairs.iter().enumerate() {
         let tells = if is_one {
-            "tells them apart".to_owned()
+            "separates them".to_owned()
         } else {
-            format!("tells {} from {}", pair.named, pair.rival)
+            format!("separates {} from {}", pair.named, pair.rival)
         };
         let what = if pair.is_same {
-            format!(
-                "along these logs they are the same; whether some motion {tells}, and which one"
-            )
+            format!("along these logs they are identical; find out which motion {tells}, if any")
         } else {
-            format!("these logs do not settle it; the motion that {tells} best")
+            format!("these logs cannot decide; design the motion that best {tells}")
         };
         let command = experiment(spec, pair.both, number);
         writeln!(out, "  {what}{first}: {command}").expect(PUT);
@@ -246,16 +244,13 @@ mod tests {
         };
         assert_eq!(
             commands("arm.robot", "", false, &[pair(0), pair(1)]),
-            "  these logs do not settle it; the motion that tells quadratic-viscous from cubic-viscous on elbow best: robot-model excite \
+            "  these logs cannot decide; design the motion that best separates quadratic-viscous from cubic-viscous on elbow: robot-model excite \
              arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow' --out next.csv\n  along these logs they \
-             are the same; whether some motion tells quadratic-viscous from stribeck on elbow, and which one: robot-model excite arm.robot \
+             are identical; find out which motion separates quadratic-viscous from stribeck on elbow, if any: robot-model excite arm.robot \
              --separate 'quadratic_viscous on elbow: c = 0.2' --from 'stribeck on elbow' --out next2.csv\n"
         );
         let one = commands("arm.robot", "", true, &[pair(0)]);
-        assert!(
-            one.contains("the motion that tells them apart best"),
-            "{one}"
-        );
+        assert!(one.contains("the motion that best separates them"), "{one}");
     }
 
     #[test]
@@ -267,7 +262,7 @@ mod tests {
         );
         assert!(
             told.starts_with(
-                "  no motion is designed that tells joint-spring from gravity-compensation-spring on hip: a parameter of one of them"
+                "  no motion is designed that separates joint-spring from gravity-compensation-spring on hip: a parameter of one of them"
             ),
             "{told}"
         );

@@ -38,7 +38,8 @@ pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
 fn vanished(closed: &Loop) -> Option<String> {
     let lead = closed.verdict.leads.get(closed.vanished?)?;
     Some(format!(
-        "{} was named by the trace, and an arm that is identified with it has none of it beyond two deviations: what was traced is another thing, or the motion tells no such law from parameters that the spec has",
+        "the trace named {}, but identified with it, its size is below two standard deviations: the cause is something else, or the motion \
+         does not separate this law from parameters of the spec",
         on_joints(closed, &lead.kind, &lead.joints)
     ))
 }
@@ -52,7 +53,7 @@ fn said_of_doubtful(closed: &Loop) -> Option<String> {
         .map(|&joint| tried.evidence.raw_percent[joint]);
     let refusals: Vec<String> = tried.refusals.iter().map(ToString::to_string).collect();
     Some(format!(
-        "{} takes {:.0} % off an error that it was not fitted to, and is not the law ({}): something like it is missing",
+        "{} reduces an error that it was not fitted to by {:.0} %, but is not the law ({}): something similar is missing",
         on_joints(closed, &tried.kind, &tried.joints),
         percent.fold(f64::NEG_INFINITY, f64::max),
         refusals.join(", ")
@@ -112,7 +113,7 @@ fn said_of_floors<'a>(joints: impl Iterator<Item = (&'a str, Option<f64>)>) -> O
     let told: Vec<String> = told.collect();
     (!told.is_empty()).then(|| {
         format!(
-            "away from turns the amended model leaves this many times the noise floor: {}; the logs hold more than the effects named here",
+            "away from velocity reversals the amended model leaves a residual this many times the noise floor: {}; the logs contain more than the effects named here",
             told.join(", ")
         )
     })
@@ -124,14 +125,14 @@ fn said_of_unlike(closed: &Loop) -> Option<String> {
     let names = closed.before.arm.joints();
     let joints = unlike(closed).into_iter().map(|joint| {
         format!(
-            "{}: {:.1} % of its torque is left, of the traced ones {:.1} %",
+            "{}: residual {:.1} % of its torque, on the traced logs {:.1} %",
             names[joint], unseen[joint], fitted[joint]
         )
     });
     let joints: Vec<String> = joints.collect();
     (!joints.is_empty()).then(|| {
         format!(
-            "the log of `--validate` has something that the traced logs do not show ({}): trace it, too, and judge on another one",
+            "the validation log shows an effect that the traced logs do not ({}): trace it too, and validate on another log",
             joints.join("; ")
         )
     })
@@ -141,7 +142,8 @@ fn said_of_unlike(closed: &Loop) -> Option<String> {
 fn not_borne_out(closed: &Loop) -> Option<String> {
     let is_against = closed.outcome() == Outcome::Explained && borne_out(closed) == Some(false);
     is_against.then(|| {
-        "no joint's error on the log of `--validate` is smaller with it by a hundredth: that log does not bear it out, so take it for a guess until another log does".to_owned()
+        "it reduces no joint's error on the validation log by even 1 %: the validation log does not confirm it, so treat it as a guess \
+         until another log does".to_owned()
     })
 }
 
@@ -178,8 +180,8 @@ fn hardly_borne_out(closed: &Loop) -> Option<String> {
 fn said_of_falls(joint: &str, fitted: f64, unseen: f64) -> Option<String> {
     (fitted > FALL && unseen < PART * fitted).then(|| {
         format!(
-            "it takes {:.0} % off {joint}'s error on the traced logs, and {:.0} % off that on the log of `--validate`: either that log hardly \
-             shows it, or it is another law that looks like it along the traced motion; trace a log of another motion, too",
+            "it reduces {joint}'s error by {:.0} % on the traced logs, but by {:.0} % on the validation log: either the validation log \
+             hardly shows it, or another law looks like it along the traced motion; trace a log of another motion too",
             100.0 * fitted,
             100.0 * unseen.max(0.0)
         )
@@ -190,8 +192,8 @@ fn said_of_falls(joint: &str, fitted: f64, unseen: f64) -> Option<String> {
 fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     closed.impossible().map(|found| {
         format!(
-            "{} = {:.4} +- {} is below zero, as no arm has it: something that the spec lacks moves as it does all along these logs, as friction \
-             does that falls with speed over the whole motion; runs at constant speeds tell a joint's friction (`robot-model friction`)",
+            "{} = {:.4} +- {} is negative, which is physically impossible: an undeclared effect looks like it along these logs, for example \
+             friction that falls with speed over the whole motion; measure friction at constant speeds (`robot-model friction`)",
             found.name,
             found.value,
             significant(found.std, 2)
@@ -217,7 +219,7 @@ mod tests {
     fn a_law_that_does_far_less_on_another_motion_is_told() {
         let told = said_of_falls("elbow", 0.6, 0.14).expect("an approximation");
         assert!(
-            told.starts_with("it takes 60 % off elbow's error on the traced logs, and 14 % off"),
+            told.starts_with("it reduces elbow's error by 60 % on the traced logs, but by 14 % on"),
             "{told}"
         );
         assert_eq!(said_of_falls("elbow", 0.6, 0.4), None);

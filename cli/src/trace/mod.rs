@@ -45,22 +45,22 @@ pub(crate) struct TraceArguments {
     /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// A log that is not fitted: errors before and after are judged on it, and nothing else is.
+    /// Validation log: not fitted, only used for errors before and after.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
     #[command(flatten)]
     log_settings: LogSettings,
-    /// Write the spec with the traced effects declared; another file than the spec itself.
+    /// Write the spec with the traced effects declared, to a file other than the spec.
     #[arg(long, value_name = "OUT.robot")]
     amend: Option<PathBuf>,
     /// Write the amended model's torque on the validation log, `time,tau1..taun`, in the units of that log's torque
-    /// channels: divided by each joint's `actuator_gain` and by what a one of its column is worth.
+    /// channels: divided by each joint's `actuator_gain` and by the unit of its column.
     #[arg(long, value_name = "OUT.csv", requires = "validate")]
     predict: Option<PathBuf>,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write the result as a page with figures, `index.html` in a folder there.
+    /// Write the result as a page with figures, `index.html` in this folder.
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
 }
@@ -74,7 +74,7 @@ impl TraceArguments {
         let text = fs::read_to_string(path).unwrap_or_default();
         match robot_of(&text) {
             Some(other) if other != robot => Err(Error::Argument(format!(
-                "cannot write `{}`: what is there is the spec of robot `{other}`, and would be lost; give another name, or take that file away first",
+                "cannot write `{}`: the existing file is the spec of robot `{other}`, and would be lost; give another name, or remove that file first",
                 path.display()
             ))),
             _ => Ok(()),

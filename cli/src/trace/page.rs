@@ -32,7 +32,7 @@ pub(super) fn page(
 ) -> Result<String, Error> {
     let mut page = Page::new(
         &format!("Trace of {}", closed.before.arm.compiled().model.name),
-        &format!("What {spec} does not say of the arm, by its logs."),
+        &format!("Effects in the logs that {spec} does not declare."),
     );
     page.section("Verdict");
     verdict(&mut page, spec, text, closed);
@@ -105,7 +105,7 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
         page.list(&items);
     }
     if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
-        page.part("What these logs cannot tell from it");
+        page.part("Effects these logs cannot distinguish from it");
         let open = apart(spec, text, closed);
         let lines = open.lines().map(|line| line.trim().to_owned());
         page.list(&lines.collect::<Vec<_>>());
@@ -113,7 +113,7 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     let left = structure_left(closed).into_iter();
     let left: Vec<String> = left.map(|said| said.join("; ")).collect();
     if !left.is_empty() {
-        page.part("Where the structure lives that is left");
+        page.part("Where the remaining structure is");
         page.list(&left);
     }
 }
@@ -123,7 +123,7 @@ fn errors(page: &mut Page, closed: &Loop) {
         Some(after) => vec![(" before", &closed.before), (" after", after)],
         None => vec![("", &closed.before)],
     };
-    let heads = ["fitted", "unseen RMSE", "unseen"].into_iter();
+    let heads = ["fitted", "validation RMSE", "validation"].into_iter();
     let heads = heads.flat_map(|of| stages.iter().map(move |(which, _)| format!("{of}{which}")));
     let heads: Vec<String> = std::iter::once("joint".to_owned())
         .chain(heads)
@@ -159,8 +159,8 @@ fn errors(page: &mut Page, closed: &Loop) {
     let rows: Vec<Vec<String>> = rows.collect();
     let from = closed.verdict.noise_floor.first().map(|floor| floor.from);
     let floor = match from {
-        Some(FloorFrom::Periods) => "what differs from period to period of the motion",
-        _ => "what curves in quantities of the motion leave of data that they were not fitted on",
+        Some(FloorFrom::Periods) => "variation between periods of the motion",
+        _ => "residual of curves over the motion, on data they were not fitted to",
     };
     page.figures(
         &[bars(closed)],
@@ -168,9 +168,9 @@ fn errors(page: &mut Page, closed: &Loop) {
         &format!(
             "Error over torque, in the filtered band, on {}.",
             if closed.before.validation.is_some() {
-                "the log that was not fitted"
+                "the validation log"
             } else {
-                "the logs that were fitted"
+                "the fitted logs"
             }
         ),
     );
@@ -180,19 +180,19 @@ fn errors(page: &mut Page, closed: &Loop) {
         .collect();
     page.table(
         &format!(
-            "RMSE of raw samples in N m (prismatic joints: N), first and last second cut; relative errors in the filtered band. \
-             The floor is of the fitted logs: {floor}. {}",
+            "RMSE of raw samples in N m (prismatic joints: N), first and last second cut; relative errors in the filtered band. Noise floor \
+             of the fitted logs: {floor}. {}",
             of.join(" ")
         ),
         &heads.iter().map(String::as_str).collect::<Vec<_>>(),
         &rows,
     );
     if closed.before.validation.is_none() {
-        page.text("Give --validate for a log that is not fitted.");
+        page.text("Give a validation log with --validate.");
     }
 }
 
-/// Relative errors of every joint, of the log that was not fitted where there is one.
+/// Relative errors of every joint, of the validation log where there is one.
 fn bars(closed: &Loop) -> String {
     let percents = |stage: &Stage| {
         let unseen = stage.validation.as_ref();
@@ -244,8 +244,8 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
         drawn.push(shown(Ink::After));
     }
     let (log, which) = match &closed.unseen {
-        Some(log) => (log, "the log that was not fitted"),
-        None => (&closed.traced[0], "the first log that was fitted"),
+        Some(log) => (log, "the validation log"),
+        None => (&closed.traced[0], "the first fitted log"),
     };
     page.text(&format!("On {which}, {}.", log.source));
     let model = &closed.before.arm.compiled().model;
@@ -274,16 +274,16 @@ fn tried(page: &mut Page, closed: &Loop) {
     let rows = rows(closed, usize::MAX, &|_| true);
     if rows.is_empty() {
         page.text(if closed.faults.iter().any(|fault| fault.is_last) {
-            "Nothing: logs with such a fault tell no effect."
+            "Nothing: logs with such a fault cannot show effects."
         } else {
-            "Nothing: no effect is left that the spec does not declare."
+            "Nothing: the spec declares all known effects."
         });
         return;
     }
     let rows: Vec<Vec<String>> = rows.into_iter().map(|row| row.to_vec()).collect();
     page.table(
-        "Effects that explained most in each round; score: Wald test over blocks of time; held-out and raw: fall of the error on folds that \
-         were not fitted, on the joint where it is most.",
+        "Effects that explained most in each round; score: Wald test over blocks of time; held-out and raw: largest fall of a joint's error \
+         on folds not fitted.",
         &["round", "effect", "score", "held-out", "raw", "outcome"],
         &rows,
     );
@@ -291,7 +291,7 @@ fn tried(page: &mut Page, closed: &Loop) {
 
 fn data(page: &mut Page, closed: &Loop) {
     if closed.faults.is_empty() {
-        page.text("No fault of the logs changes what a joint's error is.");
+        page.text("No fault of the logs changes a joint's error.");
     } else {
         let faults = closed.faults.iter();
         let told = faults.map(|fault| format!("{}: {}", fault.kind, fault.told));
@@ -300,7 +300,7 @@ fn data(page: &mut Page, closed: &Loop) {
     let checks = closed.checks.iter();
     let rows = checks.map(|check| vec![check.of.to_owned(), check.found.join("; ")]);
     page.table(
-        "What the logs that were fitted were looked through for, before anything was asked of the arm",
+        "Checks of the fitted logs before tracing",
         &["looked for", "found"],
         &rows.collect::<Vec<_>>(),
     );

@@ -15,43 +15,42 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         !closed.faults.is_empty(),
     );
     match closed.outcome() {
-        Outcome::NothingMissing => "the declared model leaves no structure that matters",
+        Outcome::NothingMissing => "the declared model leaves no significant structure",
         Outcome::Explained if closed.faults.iter().any(|fault| fault.is_last) => {
-            "what is wrong with the logs comes first, and nothing else was asked of them"
+            "the logs have faults; fix these first, nothing else was traced"
         }
         Outcome::Explained if has_effects && has_faults => {
-            "these effects and what is wrong with the logs account for what the declared model left"
+            "these effects and the faults of the logs explain the residual of the declared model"
         }
         Outcome::Explained if has_faults => {
-            "what is wrong with the logs accounts for what the declared model left"
+            "the faults of the logs explain the residual of the declared model"
         }
         Outcome::Explained if !closed.verdict.left.is_empty() => {
-            "these effects account for most of what the declared model left; where the rest lives is told, too"
+            "these effects explain most of the residual of the declared model; where the rest is, follows below"
         }
-        Outcome::Explained => "these effects account for what the declared model left",
+        Outcome::Explained => "these effects explain the residual of the declared model",
         Outcome::Unexplained if !closed.verdict.series.is_empty() => {
-            "the residual follows the motion; effects listed here that are both laws of one joint's position fit any curve of it together, so \
-             none is named"
+            "the residual follows the motion; the listed effects are two laws of one joint's position, which together fit any curve, so none is named"
         }
         Outcome::Unexplained if closed.reading.is_some() => {
-            "how the logs are to be read comes first, and nothing else was asked of them"
+            "the logs seem to be misread; fix this first, nothing else was traced"
         }
         Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
-            "the residual follows the motion; the effects listed here pass the gates but do not account for its structure, so none is named"
+            "the residual follows the motion; the listed effects pass the gates but do not explain its structure, so none is named"
         }
         // Unexplained, or an outcome of which nothing more is known here.
-        _ => "the residual follows the motion, and no known effect accounts for it",
+        _ => "the residual follows the motion, but no known effect explains it",
     }
 }
 
 /// Why the spec is as it was; none where it is not.
 pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
     let why = match closed.outcome() {
-        Outcome::Explained => "no spec declares what is wrong with these logs",
+        Outcome::Explained => "a spec cannot declare faults of logs",
         Outcome::Unexplained
             if closed.verdict.series.is_empty() && !closed.verdict.leads.is_empty() =>
         {
-            "no lead accounts for the structure of what is left"
+            "no lead explains the structure of the residual"
         }
         _ => outcome(closed),
     };
@@ -129,7 +128,7 @@ fn falls(names: &[String], before: &[f64], after: &[f64]) -> Option<String> {
     });
     let told: Vec<String> = told.collect();
     Some(format!(
-        "on the log that was not fitted the error of {} of its torque",
+        "on the validation log the error of {} of its torque",
         told.join(", that of ")
     ))
 }
@@ -175,8 +174,8 @@ fn turning(closed: &Loop) -> Option<String> {
         format!("w = {before} before, and {after} after")
     };
     Some(format!(
-        "joints turn round as slowly as the logs tell: sign(dq) counts as tanh(dq / w), {widths}; `identify` does not ask for that, \
-         so its errors of the same model on the same log are others"
+        "velocity reversals are smoothed as fitted to the logs: sign(dq) becomes tanh(dq / w), {widths}; `identify` does not do that, so \
+         its errors for the same model and log differ"
     ))
 }
 
@@ -201,7 +200,7 @@ mod tests {
         assert_eq!(
             told([5.0, 30.0, 1.0], [0.5, 0.5, 0.99]).as_deref(),
             Some(
-                "on the log that was not fitted the error of b falls from 30.00 to 0.50 %, that of a from 5.00 to 0.50 % of its torque"
+                "on the validation log the error of b falls from 30.00 to 0.50 %, that of a from 5.00 to 0.50 % of its torque"
             )
         );
         assert_eq!(told([5.0, 3.0, 1.0], [5.0, 2.99, 1.1]), None);

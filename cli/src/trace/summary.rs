@@ -61,7 +61,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     if verdict.leads.len() >= MOST_EFFECTS {
         writeln!(
             out,
-            "  the search stops at {MOST_EFFECTS} effects: declare the friction that every joint has, and trace again"
+            "  the search stops at {MOST_EFFECTS} effects: declare the friction common to all joints, and trace again"
         )
         .expect("a string takes all");
     }
@@ -113,7 +113,7 @@ fn table(closed: &Loop) -> String {
         writeln!(out, "{said}").expect("a string takes all");
     }
     if columns.len() == 1 {
-        out.push_str("(give --validate for a log that is not fitted)\n");
+        out.push_str("(give a validation log with --validate)\n");
     }
     let joints = before.arm.joints();
     let names = joints.iter().map(String::len);
@@ -144,8 +144,8 @@ fn floor(closed: &Loop) -> String {
     });
     let from = closed.verdict.noise_floor.first().map(|floor| floor.from);
     let how = match from {
-        Some(FloorFrom::Periods) => "what differs from period to period of the motion",
-        _ => "what curves in the motion's quantities leave of data they were not fitted on",
+        Some(FloorFrom::Periods) => "variation between periods of the motion",
+        _ => "residual of curves over the motion, on data they were not fitted to",
     };
     let floors: Vec<String> = floors.collect();
     format!(
@@ -203,7 +203,7 @@ mod tests {
         closed.verdict.alternatives = vec![Alternative::of(rival, 0, 0.4)];
         let told = summary("my arms/cart.robot", &closed, CART);
         assert!(
-            told.contains("or stribeck on rail in place of coulomb-friction: +0.4 % error"),
+            told.contains("or stribeck on rail instead of coulomb-friction: +0.4 % error"),
             "{told}"
         );
         let command = "robot-model excite 'my arms/cart.robot' --separate 'coulomb_friction on rail: fc = 1.9";
@@ -233,7 +233,7 @@ mod tests {
         closed.changed = None;
         let told = summary("cart.robot", &closed, CART);
         assert!(
-            told.contains("pass the gates but do not account for its structure, so none is named\n  coulomb-friction on rail"),
+            told.contains("pass the gates but do not explain its structure, so none is named\n  coulomb-friction on rail"),
             "{told}"
         );
         assert!(!told.contains("the search stops"), "{told}");

@@ -43,9 +43,8 @@ pub(super) fn tried(closed: &Loop) -> String {
     rows.insert(0, head);
     let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
     let widths = [0, 1, 2, 3, 4].map(width);
-    let mut out = String::from(
-        "\nExplained beyond chance, the fall of errors on the joint where it is most:\n",
-    );
+    let mut out =
+        String::from("\nSignificant candidates, with the largest fall of a joint's error:\n");
     for [round, effect, score, held_out, raw, end] in &rows {
         let [of_round, of_effect, of_score, of_held_out, of_raw] = widths;
         let line = format!(
@@ -77,7 +76,7 @@ fn row(closed: &Loop, one: &Tried) -> [String; 6] {
         fault.kind == one.kind && (fault.joints.is_empty() || fault.joints == one.joints)
     };
     let end = if closed.faults.iter().any(is_found) {
-        format!("found by the data gate and taken out of the logs; what is left of it: {end}")
+        format!("found by the data gate and removed from the logs; remainder: {end}")
     } else {
         end
     };
@@ -120,6 +119,6 @@ fn passed(closed: &Loop, one: &Tried) -> &'static str {
     } else if rivals.any(|rival| is_one(&rival.kind, &rival.joints)) {
         "an alternative"
     } else {
-        "another one lowers the error more"
+        "another effect lowers the error more"
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
         let mut steps = verdict.left.iter().filter(|one| one.joint == joint);
         let step = steps.find_map(|one| one.step);
         let follows = match step {
-            Some(step) if step.share > MOST => "is that of a level which changes",
+            Some(step) if step.share > MOST => "comes from a level that changes",
             _ => "still follows the motion",
         };
         let follows = if left.is_material() {
@@ -45,7 +45,7 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
         let exceeded = exceeded.filter(|_| verdict.outcome == Outcome::Unexplained);
         let exceeded = exceeded.map(|times| {
             format!(
-                "errors away from its turns are {times:.1} times what differs from period to period: what comes back is missing"
+                "errors away from velocity reversals are {times:.1} times the variation between periods: a repeating effect is missing"
             )
         });
         let said = std::iter::once(follows).chain(step).chain(exceeded).chain(found);
@@ -65,7 +65,8 @@ fn stepped(closed: &Loop, joint: usize, step: &Step) -> String {
     };
     let time = step.time;
     format!(
-        "its residual changes by {size} {unit} at {time:.1} s{log} and stays there, as where something slips, breaks or is set anew, or where the arm goes on at another place: fit what is before it and what is behind it apart"
+        "its residual steps by {size} {unit} at {time:.1} s{log} and stays there, as when something slips, breaks or is reset, or the arm \
+         continues at another place: fit the parts before and after it separately"
     )
 }
 
@@ -100,7 +101,7 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
         (
             percent,
             format!(
-                "{percent:.0} % {coefficient} times {}, a term of the equations",
+                "{percent:.0} % {coefficient} times the term {} of the equations",
                 term.term
             ),
         )
@@ -111,12 +112,12 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     let term = term.map(|(_, told)| told);
     let told: Vec<String> = level.into_iter().chain(term).chain(told).collect();
     let told = if told.is_empty() {
-        "no function of a position, velocity, acceleration, load or time".to_owned()
+        "not a function of position, velocity, acceleration, load or time".to_owned()
     } else {
         told.join(", ")
     };
     let (peak, percent) = (one.peak_hz, 100.0 * one.peak_share);
     format!(
-        "of its residual out of fold: {told}; highest line of its spectrum at {peak:.2} Hz ({percent:.0} %)"
+        "of its residual on folds not fitted: {told}; highest spectral line at {peak:.2} Hz ({percent:.0} %)"
     )
 }

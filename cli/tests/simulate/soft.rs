@@ -197,12 +197,12 @@ fn springs_that_no_motion_has_are_refused() {
         (
             moved("a * rigid_torque(j)"),
             moving,
-            "gives way against its load",
+            "deflects against its load",
         ),
         (
             moved("-a * abs(rigid_torque(j))"),
             moving,
-            "gives way against its load",
+            "deflects against its load",
         ),
     ] {
         let said = refused(&definitions, effects);

@@ -24,8 +24,8 @@ fn logs_that_do_not_tell_all_apart_are_refused_with_what_they_tell() {
     let said = folder.refuse(&["identify", "cart.robot", "log.csv", "--json", "out.json"]);
     for part in [
         "rank 3 of 5",
-        "nothing is told of `rail.stop.c`",
-        "cannot be told from others, only `",
+        "the logs say nothing about `rail.stop.c`",
+        "cannot be separated from others, only `",
         "--partial",
         "excite",
     ] {
@@ -142,7 +142,7 @@ fn what_one_block_of_a_factor_tells_is_named() {
     let reduce = ["identify", "cart.robot", "log.csv", "--factor", "f.json"];
     let run = folder.run(&[&reduce[..], &["--json", "fit.json"]].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let told = "deviations of `rail.stop.c` rest on one block of the logs";
+    let told = "only one block of the logs determines `rail.stop.c`";
     assert!(run.stderr.contains(told), "{}", run.stderr);
     let fit = json(&folder.read("fit.json"));
     let stop = fit["parameters"].as_array().expect("a list").iter();
@@ -163,7 +163,7 @@ fn intervals_of_draws_and_independent_samples_are_told() {
     let identify = [&["identify", "cart.robot", "log.csv"][..], &asked].concat();
     let table = folder.succeed(&identify);
     assert!(
-        table.contains("intervals hold 95 % of 400 draws of"),
+        table.contains("95 % confidence intervals from 400 draws of"),
         "{table}"
     );
     let out = json(&folder.read("out.json"));
@@ -271,7 +271,7 @@ fn joints_that_hardly_move_are_told() {
     // Dry friction holds them: whatever their torque is, no law says it.
     for refused in run(&held) {
         assert_eq!(refused.code, Some(1), "{}", refused.stdout);
-        let told = "`j2`, `j3` stand or turn nearly all the time";
+        let told = "`j2`, `j3` are at rest or reverse nearly all the time";
         assert!(refused.stderr.contains(told), "{}", refused.stderr);
     }
     let said = |others: &dyn Fn(f64) -> [f64; 2]| {
@@ -291,7 +291,7 @@ fn joints_that_hardly_move_are_told() {
     // Without it the noise of their encoders alone parts what they carry.
     for refused in run(&held) {
         assert_eq!(refused.code, Some(1), "{}", refused.stdout);
-        let told = "cannot be told from others";
+        let told = "cannot be separated from others";
         assert!(refused.stderr.contains(told), "{}", refused.stderr);
     }
     let moving = said(&moves);

@@ -57,7 +57,7 @@ fn sums_that_torques_tell_are_base_parameters_and_others_are_told_why() {
         (
             "zz1",
             value!({"one.izz": 1, "two.m": 0.5}),
-            "torques do not tell `zz1`: with its other parts goes 0.25 `two.m` (it has 0.5)",
+            "torques do not determine `zz1`: its other parts need 0.25 `two.m` (it has 0.5)",
         ),
         (
             "zz1",
@@ -72,12 +72,12 @@ fn sums_that_torques_tell_are_base_parameters_and_others_are_told_why() {
         (
             "y2",
             value!({"two.mx": 3}),
-            "5 of the sums are independent, and torques tell 6 base parameters: none has a part of `two.my`",
+            "5 of the sums are independent, but torques determine 6 base parameters: none contains `two.my`",
         ),
         (
             "more",
             value!({"two.mx": 3}),
-            "there are 7 sums, of which 6 are independent",
+            "only 6 of the 7 sums are independent",
         ),
     ] {
         let mut other = sums();
@@ -153,9 +153,10 @@ fn a_motor_that_does_not_hold_its_arm_is_told() {
         assert_eq!(told.is_empty(), holds, "{text}");
         if !holds {
             assert!(
-                told[0].starts_with("joint `x` takes 9.8100 N to stand at q = [")
-                    && told[0]
-                        .ends_with("and its motor has 9.0000 N: it would not lift the arm there"),
+                told[0].starts_with("joint `x` needs 9.8100 N at rest at q = [")
+                    && told[0].ends_with(
+                        "but its torque limit is 9.0000 N: it cannot hold the arm there"
+                    ),
                 "{text}"
             );
         }

@@ -29,12 +29,9 @@ fn what_bodies_miss_within_deviations_is_noted() {
     let sure = run(1e-3);
     assert_eq!(sure.code, Some(1), "{}", sure.stdout);
     assert!(
-        sure.stdout
-            .contains("of arms whose links have bodies the nearest has `")
+        sure.stdout.contains("the nearest possible arm has `")
             && sure.stdout.contains(" standard deviations)")
-            && sure
-                .stdout
-                .contains("`identify --method physical` asks the logs"),
+            && sure.stdout.contains("`identify --method physical` finds"),
         "{}",
         sure.stdout
     );
@@ -49,7 +46,7 @@ fn what_bodies_miss_within_deviations_is_noted() {
     assert!(
         unsure
             .stdout
-            .contains("within what is known, of arms whose links have bodies the nearest has `"),
+            .contains("possible within standard deviations; the nearest possible arm has `"),
         "{}",
         unsure.stdout
     );

@@ -61,7 +61,7 @@ fn what_was_not_generated_stays() {
     folder.write("code/cart.c", "// by hand\n");
     assert_eq!(
         folder.refuse(&EMIT),
-        "error: cannot write `code/cart.c`: it is there and was not generated: give another `--out`, or take it away\n"
+        "error: cannot write `code/cart.c`: it exists and was not generated: give another `--out`, or remove it\n"
     );
     assert_eq!(folder.read("code/cart.c"), "// by hand\n");
     folder.write("code/cart.c", "");
@@ -115,8 +115,7 @@ fn c_can_have_another_name() {
     ];
     assert_eq!(
         folder.refuse(&rust),
-        "error: `--name` is for `--lang c`; a page of Rust has the names of the module that includes it: \
-         `mod left { include!(..) }`\n"
+        "error: `--name` belongs to `--lang c`; Rust code is named by the module that includes it: `mod left { include!(..) }`\n"
     );
 
     folder.write("cart.robot", &CART.replace("robot Cart", "robot Math"));
@@ -136,8 +135,8 @@ fn languages_are_told() {
     let emit = |lang: &'static str| ["emit", "cart.robot", "--lang", lang, "--out", "code"];
     assert_eq!(folder.succeed(&emit("C")), "code/cart.h\ncode/cart.c\n");
     for (lang, hint) in [
-        ("cpp", "write `c`: what it emits is for C++ too"),
-        ("C++", "write `c`: what it emits is for C++ too"),
+        ("cpp", "write `c`: the C code compiles as C++ too"),
+        ("C++", "write `c`: the C code compiles as C++ too"),
         ("fortran", "[possible values: rust, c]"),
     ] {
         let run = folder.run(&emit(lang));
@@ -155,15 +154,14 @@ fn a_file_is_no_folder() {
     for (out, said) in [
         (
             "code",
-            "cannot write `code`: it is a file, and `--out` takes a folder",
+            "cannot write `code`: it is a file, but `--out` takes a folder",
         ),
         (
             "code/arms",
-            "cannot write `code/arms`: `code` is a file, and `--out` takes a folder",
+            "cannot write `code/arms`: `code` is a file, but `--out` takes a folder",
         ),
     ] {
-        let said =
-            format!("error: {said}; what stands in it is called as the robot is, or the spec\n");
+        let said = format!("error: {said}; files in it are named after the robot or the spec\n");
         let emit = ["emit", "cart.robot", "--lang", "c", "--out", out];
         assert_eq!(folder.refuse(&emit), said);
     }

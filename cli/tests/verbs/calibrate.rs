@@ -70,7 +70,7 @@ fn a_gain_that_saturates_is_no_line() {
     folder.write("bent.csv", &text);
     let columns = ["--current", "i", "--torque", "tau", "--json", "bent.json"];
     let said = folder.succeed(&[&["calibrate", "static", "bent.csv"][..], &columns].concat());
-    assert!(said.contains("NO LINE"), "{said}");
+    assert!(said.contains("NOT LINEAR"), "{said}");
     assert!(said.contains("hysteresis  not told"), "{said}");
     let found = json(&folder.read("bent.json"));
     close(found["curvature"].as_f64().expect("told"), -0.002, 1e-9);
@@ -79,7 +79,7 @@ fn a_gain_that_saturates_is_no_line() {
         found["spec"].is_null() && !said.contains("actuator_gain"),
         "{said}"
     );
-    assert!(said.contains("at its limit, and calibrate again"), "{said}");
+    assert!(said.contains("saturates, and calibrate again"), "{said}");
     assert!(found["hysteresis"].is_null() && found["friction"].is_null());
 }
 
@@ -107,15 +107,12 @@ fn tables_that_are_none_are_refused() {
             "i,tau\n1,2\n2,3\n",
             "2 samples are too few; give at least 3",
         ),
-        (
-            "i,tau\n1,2\n1,3\n1,4\n",
-            "the current is the same in all samples",
-        ),
+        ("i,tau\n1,2\n1,3\n1,4\n", "the current is constant"),
         (
             "i,force\n1,2\n",
             "no column `tau` for --torque; the header has `i`, `force`",
         ),
-        ("i,tau,i\n1,2,3\n", "column `i` stands there twice"),
+        ("i,tau,i\n1,2,3\n", "column `i` appears twice"),
         ("i;tau\n1;2\n", "separate columns with commas"),
         ("1,2\n2,3\n", "no header"),
         ("\n", "empty"),
@@ -270,11 +267,11 @@ fn logs_that_do_not_tell_are_refused() {
     for motion in [["--velocity", "w"], ["--position", "q"]] {
         let none = said("sine.csv", &motion);
         assert!(
-            none.contains("constant in pieces") && none.contains("log the voltage"),
+            none.contains("piecewise constant") && none.contains("log the voltage"),
             "{none}"
         );
         assert!(said("gap.csv", &motion).contains("gap.csv:51: a gap of 31.0 usual steps"));
-        assert!(said("twice.csv", &motion).contains("twice.csv:12: time does not rise"));
+        assert!(said("twice.csv", &motion).contains("twice.csv:12: time does not increase"));
     }
     assert!(said("sine.csv", &["--velocity", "still"]).contains("the velocity is the same"));
     let names = said("sine.csv", &["--velocity", "w", "--time", "t"]);
@@ -324,7 +321,7 @@ fn calibrations_are_in_the_units_of_the_file() {
     let (found, said) = calibrate("mA/table.csv");
     assert!((found - wanted).abs() < 1e-9, "{found} and {wanted}");
     assert!(
-        said.contains("note: mA/robot-model.toml says what column `i` is in"),
+        said.contains("note: mA/robot-model.toml gives the unit of column `i`"),
         "{said}"
     );
     folder.write(

@@ -60,7 +60,7 @@ fn logs_of_a_drive_are_those_in_si_units() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
         run.stderr
-            .contains("monday.csv: columns that hold no numbers are left out: `mode`"),
+            .contains("monday.csv: columns without numbers are ignored: `mode`"),
         "{}",
         run.stderr
     );
@@ -137,7 +137,7 @@ fn a_simulated_log_needs_no_second_spec() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
         run.stderr
-            .contains("lacks the columns that the spec's `log` names"),
+            .contains("lacks the columns named by the spec's `log`"),
         "{}",
         run.stderr
     );

@@ -144,7 +144,7 @@ fn a_contact_that_comes_back_is_named_with_its_part_of_the_period() {
         astray,
     );
     let told = folder.refuse(&["identify", "amended.robot", "log.csv"]);
-    assert!(told.contains("motions that repeat"), "{told}");
+    assert!(told.contains("needs a motion that repeats"), "{told}");
 }
 
 /// A force at the flange turns the last joint, too, whose link's frame is elsewhere.

@@ -180,7 +180,9 @@ fn torques_behind_a_low_pass_are_corrupt_samples_and_no_law_of_friction() {
     folder.write("other.csv", &smoothed(&raw(0.7), 200.0, 4.0));
     let told = folder.succeed(&TRACE);
     assert!(
-        told.starts_with("explained:\n  corrupt-samples: log.csv: torques went through a low-pass"),
+        told.starts_with(
+            "explained:\n  corrupt-samples: log.csv: torques, but not positions, were low-pass"
+        ),
         "{told}"
     );
     let out = json(&folder.read("out.json"));

@@ -342,7 +342,9 @@ fn commands_that_hold_at_a_low_rate_are_told() {
         let run = folder.run(&[&identify[..], more].concat());
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         let found = json(&folder.read("out.json"))["parameters"][0]["value"].as_f64();
-        let is_told = run.stderr.contains("stand and jump from one sample");
+        let is_told = run
+            .stderr
+            .contains("are constant, then jump from one sample");
         (found.expect("a number"), is_told)
     };
     let (by_rows, is_told) = value(&[]);

@@ -61,12 +61,12 @@ fn torques_in_another_unit_or_with_another_sign_are_noted() {
         "{said}"
     );
     assert!(
-        said.contains("on the log to validate on, of which is left: `upper` "),
+        said.contains("of the validation log; residual: `upper` "),
         "{said}"
     );
     let said = notes(&folder, &["true.robot", "turned.csv"]);
     assert!(
-        said.contains("with the torque of `lower` the other way round the model leaves"),
+        said.contains("with the torque of `lower` with the opposite sign the residual is"),
         "{said}"
     );
 }
@@ -76,7 +76,7 @@ fn joints_that_hardly_move_leave_parameters_untold() {
     let folder = folder(0.01);
     let said = notes(&folder, &["true.robot", "log.csv"]);
     assert!(
-        said.contains("the logs hardly tell 1 of 8 parameters")
+        said.contains("the logs hardly determine 1 of 8 parameters")
             && said.contains("`upper.viscous_friction.fv`; joints `upper`, `lower` hardly move"),
         "{said}"
     );
@@ -105,8 +105,8 @@ fn a_misfit_is_not_told_as_a_want_of_motion() {
     let said = notes(&folder, &["true.robot", "burst.csv"]);
     assert!(
         said.contains(
-            "`upper.viscous_friction.fv`; the motion would tell them if 2 % of the torque were left"
-        ) && said.contains("the model does not fit and leaves `upper` "),
+            "`upper.viscous_friction.fv`; the motion would determine them with a residual of 2 % of the torque"
+        ) && said.contains("the model does not fit: `upper` "),
         "{said}"
     );
     assert!(!said.contains("further and faster"), "{said}");
@@ -192,7 +192,7 @@ fn an_audit_of_a_possible_arm_looks_at_its_bodies() {
     folder.write("other.json", &fit.to_string());
     let run = audit("other.json");
     assert!(
-        run.stderr.contains("do not make its base parameters"),
+        run.stderr.contains("contradict its base parameters"),
         "{}",
         run.stderr
     );
@@ -219,7 +219,7 @@ fn a_fixed_body_that_is_another_than_the_arm_has_is_noted() {
     folder.write("heavy.robot", &fixed("1.2"));
     assert_eq!(notes(&folder, &["as_it_is.robot", "log.csv"]), "");
     let said = notes(&folder, &["heavy.robot", "log.csv"]);
-    let told = "note: these logs fit better with `lower` that the spec has `fixed` left free: there is left of the torque ";
+    let told = "note: these logs fit better with `lower` identified instead of `fixed`: residual ";
     assert!(said.contains(told), "{said}");
     assert!(!said.contains("move all joints further"), "{said}");
 }
@@ -241,9 +241,7 @@ fn torque_that_is_left_and_goes_on_from_row_to_row_is_noted() {
     assert_eq!(notes(&folder, &["cart.robot", "free.csv"]), "");
     let said = notes(&folder, &["cart.robot", "pushed.csv"]);
     assert!(
-        said.contains(
-            "there is left of the torque what goes on from row to row, as noise does not: `rail` "
-        ),
+        said.contains("the residual is correlated from row to row, unlike noise: `rail` "),
         "{said}"
     );
     assert!(!said.contains("the logs are"), "{said}");
@@ -276,7 +274,7 @@ fn a_fit_that_is_none_is_doubted_behind_its_errors() {
     let said = folder.read("both.txt");
     let last = said.lines().last().expect("lines");
     assert!(
-        last.starts_with("note: the model explains next to nothing"),
+        last.starts_with("note: the model explains almost none"),
         "{said}"
     );
     let errors = said.find("NRMSE fit").expect("errors");

@@ -119,7 +119,7 @@ fn a_payload_that_is_elsewhere_is_noted() {
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         run.stderr
     };
-    let told = "the logs themselves have the payload's center of mass elsewhere, m: x = 0.1";
+    let told = "the logs place the payload's center of mass elsewhere, m: x = 0.1";
     assert!(!notes("0.15,-0.0625,0").contains("elsewhere"));
     let said = notes("0.05,-0.0625,0");
     assert!(said.contains(told), "{said}");
@@ -143,14 +143,14 @@ fn a_payload_that_tells_no_gain_is_refused() {
     }
     // On the first link a mass alone does what first moments do.
     let inner = ["--payload-mass", "0.8", "--payload-link", "up"];
-    assert!(said(&inner).contains("no drive's gain is told"));
+    assert!(said(&inner).contains("no drive's gain is identified"));
     // Logs that have no payload, and the log itself.
     folder.write("again.csv", &(folder.read("empty.csv") + "\n"));
     for (payload, told) in [
-        ("again.csv", "is it there in all of them"),
+        ("again.csv", "do all of them have it"),
         (
             "empty.csv",
-            "is the same log as empty.csv, which is without the payload",
+            "is the same log as empty.csv, which has no payload",
         ),
     ] {
         let nothing = [

@@ -15,11 +15,11 @@ fn a_shape_far_from_its_range_is_told() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let line = spec.lines().count() - 1;
     let told = format!(
-        "warning: arm.robot:{line}: `vs` of effect `stribeck` is 10, in SI units, and is looked for in 0.005 .. 0.5;"
+        "warning: arm.robot:{line}: `vs` of effect `stribeck` is 10 in SI units, outside its search range 0.005 .. 0.5;"
     );
     assert!(run.stderr.starts_with(&told), "{}", run.stderr);
     assert_eq!(
-        run.stderr.matches("is looked for").count(),
+        run.stderr.matches("outside its search range").count(),
         1,
         "{}",
         run.stderr
@@ -49,8 +49,8 @@ fn check_warns_of_an_inertia_that_no_body_has() {
     assert_eq!(run.code, Some(0));
     assert_eq!(
         run.stderr,
-        "warning: arm.robot: link `upper` has an inertia that no body has: about the center of mass each principal moment is positive \
-         and at most the sum of the other two\n"
+        "warning: arm.robot: link `upper` has a physically impossible inertia: about the center of mass each principal moment must be \
+         positive and at most the sum of the other two\n"
     );
 }
 
@@ -145,7 +145,7 @@ fn emit_refuses_what_it_cannot_write() {
     let said = folder.refuse(&[emit.as_slice(), &["cart.robot"]].concat());
     assert!(
         said.starts_with(
-            "error: cannot write `cart.robot`: it is a file, and `--out` takes a folder"
+            "error: cannot write `cart.robot`: it is a file, but `--out` takes a folder"
         ),
         "{said}"
     );
@@ -190,7 +190,8 @@ fn base_parameters_in_doubt_are_told_by_every_verb() {
     folder.write("cart.robot", &spec);
     folder.write("states.json", r#"{"states":[]}"#);
     folder.write("log.csv", &cart_log(10, 0.0, 0.0));
-    let doubt = "cart.robot: the base parameters are not certain: between 1e-10 and 1e-7, `rail.near.b` has ";
+    let doubt =
+        "cart.robot: the base parameters are uncertain: between 1e-10 and 1e-7, `rail.near.b` has ";
     for verb in ["check", "show"] {
         let run = folder.run(&[verb, "cart.robot"]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
@@ -224,7 +225,7 @@ fn where_a_robot_is_takes_points() {
     for what in ["jacobian", "forward-kinematics"] {
         assert_eq!(
             folder.refuse(&["show", "disc.robot", "--what", what]),
-            "error: disc.robot: the robot names no points, so nothing is known of where it is; write `point tip = [x, y, z];`\n"
+            "error: disc.robot: the robot has no points, so its position is unknown; write `point tip = [x, y, z];`\n"
         );
     }
 }

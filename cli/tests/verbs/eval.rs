@@ -57,7 +57,7 @@ fn eval_refuses_states_of_another_arm() {
     );
     assert!(
         said("{\n")
-            .starts_with("error: states.json:2:0: it is no JSON: EOF while parsing an object")
+            .starts_with("error: states.json:2:0: it is not JSON: EOF while parsing an object")
     );
     let typed = said(r#"{"states":[{"q":[0,0],"dq":[0,"x"],"ddq":[0,0]}]}"#);
     assert!(
@@ -138,7 +138,7 @@ fn what_is_no_text_is_refused_with_the_way_out() {
     std::fs::write(folder.path("arm.robot"), b"robot A {\n\xff\xfe").expect("a file in the folder");
     assert_eq!(
         folder.refuse(&["check", "arm.robot"]),
-        "error: cannot read `arm.robot`: line 2 is no text in UTF-8; save the file as such, or name the file that has the text\n"
+        "error: cannot read `arm.robot`: line 2 is not UTF-8 text; save the file as UTF-8, or name a text file\n"
     );
 }
 

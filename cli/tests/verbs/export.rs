@@ -97,17 +97,18 @@ fn a_urdf_has_the_torques_of_the_fit() {
         &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
     );
     assert!(
-        said.contains("note: arm.robot: the parameters do not tell each number of the inertials; written is of `upper`, `lower` one of the sets"),
+        said.contains("note: arm.robot: the parameters do not determine every inertial value; the file has for `upper`, `lower` one of \
+                       many sets"),
         "{said}"
     );
     assert!(
-        said.contains("a URDF does not say gravity: [0, -9.81, 0] m/s^2"),
+        said.contains("a URDF cannot hold gravity: [0, -9.81, 0] m/s^2"),
         "{said}"
     );
     assert!(!said.contains("not written"), "{said}");
     let urdf = folder.read("out.urdf");
     assert!(
-        urdf.contains("told only in sums: m, mx")
+        urdf.contains("identified only in sums: m, mx")
             && urdf.contains("gravity in the frame of `base`"),
         "{urdf}"
     );
@@ -152,7 +153,7 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
     );
     assert!(
         said.contains(
-            "effects that a URDF does not say are not written: `lower.stribeck` (fs = 0.1"
+            "effects that a URDF cannot express are not written: `lower.stribeck` (fs = 0.1"
         ),
         "{said}"
     );
@@ -181,7 +182,7 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
         &["--as", "mjcf", "--parameters", "fit.json", "-o", "out.xml"],
     );
     assert!(
-        said.contains("MJCF does not say are not written: `lower.stribeck` (fs"),
+        said.contains("MJCF cannot express are not written: `lower.stribeck` (fs"),
         "{said}"
     );
     assert!(!said.contains("motor_inertia"), "{said}");
@@ -227,7 +228,7 @@ fn values_by_name_are_written_as_they_are_where_bodies_have_them() {
         ],
     );
     assert!(
-        said.contains("do not tell each number of the inertials; written is of"),
+        said.contains("do not determine every inertial value; the file has"),
         "{said}"
     );
     folder.succeed(&[
@@ -266,7 +267,8 @@ fn estimates_that_no_arm_has_are_told() {
         &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
     );
     assert!(
-        said.contains("warning: fit.json: no arm of bodies has all these values; the nearest is written, with `lower.coulomb_friction.fc`"),
+        said.contains("warning: fit.json: no physically possible arm has these values; the nearest is written, with \
+                       `lower.coulomb_friction.fc`"),
         "{said}"
     );
     assert!(said.contains(" in place of -0.20000 ("), "{said}");
@@ -313,7 +315,7 @@ fn what_cannot_be_exported_is_refused() {
     );
     let said = refused(&["--as", "mjcf", "--urdf", "a.urdf", "-o", "out.xml"]);
     assert!(
-        said.starts_with("error: `--urdf` is of `--as urdf`"),
+        said.starts_with("error: `--urdf` belongs to `--as urdf`"),
         "{said}"
     );
     let said = refused(&["--as", "mjcf", "--rotors", "in-links", "-o", "out.xml"]);
@@ -347,5 +349,8 @@ fn what_cannot_be_exported_is_refused() {
          potential = m*g*l*sin(q); }",
     );
     let said = folder.refuse(&["export", "swing.robot", "--as", "mjcf", "-o", "out.xml"]);
-    assert!(said.contains("`Swing` says its energies"), "{said}");
+    assert!(
+        said.contains("`Swing` is defined by its energies"),
+        "{said}"
+    );
 }

@@ -130,21 +130,21 @@ fn factors_of_other_forms_and_corners_do_not_belong_together() {
     for (arguments, reason) in [
         (
             &["merge", "cart.robot", "40.json", "50.json"][..],
-            "50.json: the factor has other rows (of the form filtered with a corner of 50 rad/s, where filtered with a corner of 40 rad/s is \
-             wanted)",
+            "50.json: the factor has different rows (of the form filtered with a corner of 50 rad/s, where filtered with a corner of 40 \
+             rad/s is wanted)",
         ),
         (
             &["merge", "cart.robot", "40.json", "plain.json"],
-            "plain.json: the factor has other rows (of the form acceleration, where filtered with a corner of 40 rad/s is wanted)",
+            "plain.json: the factor has different rows (of the form acceleration, where filtered with a corner of 40 rad/s is wanted)",
         ),
         (
             &["merge", "cart.robot", "plain.json", "40.json"],
-            "40.json: the factor has other rows (of the form filtered with a corner of 40 rad/s, where acceleration is wanted) than the arm or \
-             the factors before it; make all with one spec and the same `--bands`, `--form` and `--corner`",
+            "40.json: the factor has different rows (of the form filtered with a corner of 40 rad/s, where acceleration is wanted) than \
+             the arm or the factors before it; make all with one spec and the same `--bands`, `--form` and `--corner`",
         ),
         (
             &["merge", "cart.robot", "without.json"],
-            "without.json: it is of the filtered form, and has no `corner` above 0 rad/s",
+            "without.json: it is of the filtered form, but has no `corner` above 0 rad/s",
         ),
         (
             &["merge", "cart.robot", "power.json"],
@@ -152,7 +152,7 @@ fn factors_of_other_forms_and_corners_do_not_belong_together() {
         ),
         (
             &["merge", "dry.robot", "more.json"],
-            "more.json: block 1 has more rows away from turns than rows",
+            "more.json: block 1 has more rows away from velocity reversals than rows",
         ),
         (
             &["merge", "loaded.robot", "40.json"],

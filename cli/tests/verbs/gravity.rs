@@ -11,7 +11,7 @@ fn gravity_along_another_axis_is_told_by_the_torques() {
     let folder = Folder::new();
     let (header, rows) = moved(&folder);
     folder.write("log.csv", &format!("{header}\n{rows}"));
-    let told = "with gravity along [0 m/s^2, 0 m/s^2, -9.81 m/s^2] the model leaves";
+    let told = "with gravity along [0 m/s^2, 0 m/s^2, -9.81 m/s^2] the residual is";
     for gravity in ["[0, 0, 9.81]", "[9.81, 0, 0]"] {
         let other = three_joints("").replace("[0, 0, -9.81]", gravity);
         folder.write("other.robot", &other);

@@ -92,7 +92,7 @@ fn import_refuses_what_it_cannot_use() {
     let said = folder.refuse(&["import", "arm.urdf", "-o", "nowhere/arm.robot"]);
     assert_eq!(
         said,
-        "error: cannot write `nowhere/arm.robot`: there is no folder `nowhere`; make it first\n"
+        "error: cannot write `nowhere/arm.robot`: there is no folder `nowhere`; create it first\n"
     );
     assert_eq!(
         folder
@@ -111,7 +111,7 @@ fn an_edited_spec_stays() {
     let said = folder.refuse(&import);
     assert_eq!(
         said,
-        "error: cannot write `arm.robot`: there is such a file already; give another name, or `--force` to put this one in its place\n"
+        "error: cannot write `arm.robot`: this file exists; give another name, or `--force` to replace it\n"
     );
     assert_eq!(folder.read("arm.robot"), "mine");
     folder.succeed(&[&import[..], &["--force"]].concat());

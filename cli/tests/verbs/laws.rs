@@ -42,7 +42,7 @@ fn friction_of_another_law_is_told_and_in_deviations() {
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         let is_told = run
             .stderr
-            .contains("torque follows speed in another way than the friction of the spec: `lo`");
+            .contains("friction depends on speed differently than the spec says: `lo");
         (is_told, found(&folder, "lo.coulomb_friction.fc"))
     };
     let (is_told, [value, std]) = of("arm.robot", "plain.json");
@@ -92,7 +92,7 @@ fn what_turns_alone_tell_is_named() {
         folder.succeed(&[&simulate[..], &motion, &sensors, &["--out", "log.csv"]].concat());
         let notes = folder.run(&["identify", "arm.robot", "log.csv"]).stderr;
         let mut notes = notes.lines().map(str::to_owned);
-        notes.find(|note| note.contains("no rows but those where joints turn tell"))
+        notes.find(|note| note.contains("only rows near velocity reversals determine"))
     };
     let told = said(0.05).expect("a note");
     assert!(told.contains("`lo.coulomb_friction.fc`"), "{told}");

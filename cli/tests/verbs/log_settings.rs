@@ -224,9 +224,8 @@ fn a_file_that_is_asked_for_is_read_in_place_of_the_one_beside() {
         let run = folder.run(&identify);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         assert!(
-            run.stderr.contains(
-                "note: drive.toml says which columns of logs are `dq`, `q`, `tau`, `time`\n"
-            ),
+            run.stderr
+                .contains("note: drive.toml sets the columns of `dq`, `q`, `tau`, `time`\n"),
             "{}",
             run.stderr
         );
@@ -263,7 +262,7 @@ fn the_file_wins_over_the_spec_channel_by_channel() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
         run.stderr.contains(
-            "note: beside/robot-model.toml says which columns of logs are `q`, in place of what the spec's `log` says of them (plain.robot:"
+            "note: beside/robot-model.toml sets the columns of `q`, instead of the spec's `log` (plain.robot:"
         ),
         "{}",
         run.stderr
@@ -327,7 +326,7 @@ fn a_damaged_file_is_refused_with_its_place() {
             "[log]\nq = { column = 'a', unit = 'deg' }\n",
             "expected a length, found an angle",
         ),
-        ("", "the file says nothing of logs"),
+        ("", "the file has no log settings"),
     ] {
         folder.write("robot-model.toml", settings);
         for verb in ["identify", "trace", "dissect"] {
@@ -343,7 +342,7 @@ fn a_damaged_file_is_refused_with_its_place() {
     std::fs::write(folder.path("robot-model.toml"), [b'[', 0xff, 0xfe]).expect("a file");
     let said = folder.refuse(&["identify", "cart.robot", "log.csv"]);
     assert!(
-        said.contains("cannot read `robot-model.toml`: line 1 is no text in UTF-8"),
+        said.contains("cannot read `robot-model.toml`: line 1 is not UTF-8 text"),
         "{said}"
     );
 }

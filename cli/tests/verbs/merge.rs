@@ -179,12 +179,12 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         ),
         (
             &["merge", "geared.robot", "one.json"],
-            "one.json: the factor has other equations",
+            "one.json: the factor has different equations",
         ),
         (&["merge", "cart.robot", "cut.json"], "cut.json"),
         (
             &["merge", "cart.robot", "form.json"],
-            "a factor of form 9, this program reads form 5; write it anew with `identify --factor`",
+            "a factor of form 9, this program reads form 5; write it again with `identify --factor`",
         ),
         (
             &["merge", "cart.robot", "old.json"],
@@ -192,19 +192,19 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         ),
         (
             &["merge", "cart.robot", "negative.json"],
-            "negative.json: block 1 has a sum of squares or a size below zero",
+            "negative.json: block 1 has a negative sum of squares or size",
         ),
         (
             &["merge", "cart.robot", "rows.json"],
-            "block 1 has not one list of rows per joint",
+            "block 1 does not have one list of rows per joint",
         ),
         (
             &["merge", "cart.robot", "plain.json"],
-            "it is no factor as `identify --factor` writes it",
+            "it is not a factor written by `identify --factor`",
         ),
         (
             &["merge", "cart.robot", "one.csv"],
-            "one.csv: it is a log, and no factor of logs",
+            "one.csv: it is a log, not a factor",
         ),
         (
             &["identify", "dahl.robot", "one.csv", "--factor", "x.json"],
@@ -224,7 +224,7 @@ fn what_is_no_factor_of_the_arm_is_refused() {
                 "--method",
                 "tls",
             ],
-            "others ask for single samples",
+            "others need single samples",
         ),
     ] {
         let said = folder.refuse(arguments);
@@ -265,7 +265,7 @@ fn numbers_of_the_spec_are_a_factor_s_and_nominal_values_and_comments_are_not() 
     for other in ["moon.robot", "long.robot"] {
         let said = folder.refuse(&["merge", other, "log.json"]);
         assert!(
-            said.contains("log.json: the factor has other equations"),
+            said.contains("log.json: the factor has different equations"),
             "{said}"
         );
     }
@@ -348,10 +348,13 @@ fn factors_are_weighed_against_nominal_values() {
     }
     let refused = folder.refuse(&["merge", "arm.robot", "factor.json", "--prior", "0.1"]);
     assert!(
-        refused.contains("`--prior` is of `--method ridge`"),
+        refused.contains("`--prior` belongs to `--method ridge`"),
         "{refused}"
     );
     let of_all = ["--method", "physical", "--weights", "torque-norm"];
     let refused = folder.refuse(&[&["merge", "arm.robot", "factor.json"][..], &of_all].concat());
-    assert!(refused.contains("`--weights` is of `wls`"), "{refused}");
+    assert!(
+        refused.contains("`--weights` belongs to `wls`"),
+        "{refused}"
+    );
 }

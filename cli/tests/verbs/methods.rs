@@ -115,10 +115,10 @@ fn options_of_other_methods_are_refused() {
             &["--weights", "max-torque", "--method", "ls"][..],
             "`ls` has its own",
         ),
-        (&["--prior", "0.1"], "`--prior` is of `--method ridge`"),
+        (&["--prior", "0.1"], "`--prior` belongs to `--method ridge`"),
         (
             &["--instruments", "wanted.csv"],
-            "`--instruments` are of `--method iv`",
+            "`--instruments` belongs to `--method iv`",
         ),
         (&["--method", "iv"], "0 motions for 1 log"),
         (
@@ -139,11 +139,11 @@ fn options_of_other_methods_are_refused() {
         ),
         (
             &["--method", "iv", "--instruments", "log.csv"],
-            "log.csv: the motion without noise is the log's own",
+            "log.csv: the noise-free motion is the log's own",
         ),
         (
             &["--method", "iv", "--instruments", "holed.csv"],
-            "has a hole from 2.",
+            "has a gap from 2.",
         ),
     ] {
         let wanted = folder.read("wanted.csv");
@@ -157,7 +157,7 @@ fn options_of_other_methods_are_refused() {
         assert!(said.contains(reason), "{options:?}: {said}");
     }
     let said = folder.refuse(&["identify", "bare.robot", "log.csv", "--method", "ridge"]);
-    assert!(said.contains("no nominal value to go to"), "{said}");
+    assert!(said.contains("no nominal values to use"), "{said}");
 }
 
 /// Nothing is read for options that no log makes sense of.
@@ -189,15 +189,15 @@ fn options_without_sense_are_refused_before_a_log_is_read() {
         ),
         (
             [&simulated[..], &["--window", "0"]],
-            "`--window` has to be positive",
+            "`--window` must be positive",
         ),
         (
             [&simulated, &["--within", "-5"]],
-            "`--within` has to be a positive number of percent, not -5",
+            "`--within` must be a positive number of percent, not -5",
         ),
         (
             [&simulated, &["--window", "1", "--controller", "law.json"]],
-            "`--window` is of arms that the logged torque drives",
+            "`--window` needs an arm driven by the logged torque",
         ),
     ] {
         let said = folder.refuse(&[&identify[..], &options.concat()].concat());

@@ -22,7 +22,7 @@ fn an_arm_that_falls_beyond_its_limits_is_told() {
     ]
     .concat();
     let said = folder.run(&run).stderr;
-    assert!(said.contains("joint turn went to position -1."), "{said}");
+    assert!(said.contains("joint turn reached position -1."), "{said}");
 }
 
 /// A law that is steep through rest, beside joints that stick: its side follows the rounding of an acceleration, and does nothing.

@@ -197,7 +197,7 @@ fn a_law_of_time_is_told_by_its_frequency() {
         "{out}"
     );
     assert!(
-        told.contains("no function of a position, velocity"),
+        told.contains("not a function of position, velocity"),
         "{told}"
     );
 }

@@ -123,7 +123,7 @@ fn what_is_there_stays() {
     for options in [&["-o", "arm.robot"][..], &[]] {
         let said = folder.refuse(&[&["new", "Arm"], options].concat());
         assert!(
-            said.contains("cannot write `arm.robot`: there is such a file already"),
+            said.contains("cannot write `arm.robot`: this file exists"),
             "{said}"
         );
         assert!(said.contains("`--force`"), "{said}");
@@ -137,7 +137,7 @@ fn what_is_there_stays() {
 fn names_and_numbers_that_are_none_are_refused() {
     let folder = Folder::new();
     for (arguments, wanted) in [
-        (vec!["new", "arm.robot"], "its file behind `-o`"),
+        (vec!["new", "arm.robot"], "its file after `-o`"),
         (vec!["new", "7"], "write the robot's name"),
         (vec!["new", "Arm", "--joints", "0"], "0 is not in 1..=40"),
         (vec!["new", "Arm", "--convention", "dh"], "standard_dh"),

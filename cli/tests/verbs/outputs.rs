@@ -100,7 +100,7 @@ fn only_regular_files_are_replaced() {
         identify("log.csv/out.json"),
         "error: cannot write `log.csv/out.json`: `log.csv` is not a folder\n"
     );
-    assert!(identify("..").contains("it names no file"));
+    assert!(identify("..").contains("it does not name a file"));
 
     folder.write("kept.json", "old");
     let kept = folder.path("kept.json");
@@ -109,7 +109,7 @@ fn only_regular_files_are_replaced() {
     std::fs::set_permissions(&kept, permissions).expect("its owner may");
     assert_eq!(
         identify("kept.json"),
-        "error: cannot write `kept.json`: it is read-only; give another name, or let it be written first\n"
+        "error: cannot write `kept.json`: it is read-only; give another name, or make it writable\n"
     );
     assert_eq!(folder.read("kept.json"), "old");
 }
@@ -128,9 +128,9 @@ fn devices_are_not_replaced_and_links_are_followed() {
     symlink("old.json", folder.path("link.json")).expect("a link");
     let identify = ["identify", "cart.robot", "log.csv", "--json"];
     for (output, why) in [
-        ("/dev/stdout", "it is no regular file"),
-        ("null", "it is no regular file"),
-        ("dangling", "it is a link that leads nowhere"),
+        ("/dev/stdout", "it is not a regular file"),
+        ("null", "it is not a regular file"),
+        ("dangling", "it is a broken link"),
         ("link.csv", "it is the same file as the input `log.csv`"),
     ] {
         let said = folder.refuse(&[identify.as_slice(), &[output]].concat());
@@ -194,20 +194,12 @@ fn a_result_takes_the_place_of_its_like_and_says_so() {
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         run
     };
-    let said = |name: &str| format!("note: `{name}` was there before; it has this run's result");
+    let said = |name: &str| format!("note: `{name}` existed; this run's result");
     let first = run("fit.json", "page");
-    assert!(
-        !first.stderr.contains("was there before"),
-        "{}",
-        first.stderr
-    );
+    assert!(!first.stderr.contains("existed; this"), "{}", first.stderr);
     // The same bytes again take nothing away.
     let again = run("fit.json", "page");
-    assert!(
-        !again.stderr.contains("was there before"),
-        "{}",
-        again.stderr
-    );
+    assert!(!again.stderr.contains("existed; this"), "{}", again.stderr);
     assert_eq!(first.stdout, again.stdout);
 
     folder.write("fit.json", "{}");
@@ -315,7 +307,8 @@ fn a_result_takes_the_place_of_nothing_else() {
         assert_eq!(
             folder.refuse(&[command, &[output, file]].concat()),
             format!(
-                "error: cannot write `{named}`: what is there is no {kind}, and would be lost; give another name, or take that file away first\n"
+                "error: cannot write `{named}`: the existing file is not a {kind}, and would be lost; give another name, or remove that \
+                 file first\n"
             )
         );
         assert_eq!(folder.read(named), before);
@@ -324,8 +317,8 @@ fn a_result_takes_the_place_of_nothing_else() {
     folder.write("another.robot", of_another);
     assert_eq!(
         folder.refuse(&[&trace[..], &["--amend", "another.robot"]].concat()),
-        "error: cannot write `another.robot`: what is there is the spec of robot `Another`, and would be lost; give another name, or take \
-         that file away first\n"
+        "error: cannot write `another.robot`: the existing file is the spec of robot `Another`, and would be lost; give another name, or \
+         remove that file first\n"
     );
     assert_eq!(folder.read("another.robot"), of_another);
 }
@@ -353,7 +346,7 @@ fn a_table_takes_the_place_of_what_its_verb_wrote() {
         run.stderr
     };
     for out in ["log.csv", "log.mcap"] {
-        let note = format!("note: `{out}` was there before");
+        let note = format!("note: `{out}` existed");
         assert!(!simulate(out, "5").contains(&note));
         assert!(simulate(out, "10").contains(&note));
         // The same bytes again take nothing away.
@@ -374,7 +367,7 @@ fn a_report_that_has_no_folder_is_told_before_the_work() {
     };
     assert_eq!(
         identify(&["--json", "out", "--report", "./out"]),
-        "error: cannot write `./out`: it is the same file as the output `out`; give each a name of its own\n"
+        "error: cannot write `./out`: it is the same file as the output `out`; give each its own name\n"
     );
     assert_eq!(
         identify(&["--report", "log.csv"]),
@@ -383,7 +376,7 @@ fn a_report_that_has_no_folder_is_told_before_the_work() {
     folder.write("notes", "of mine");
     assert_eq!(
         identify(&["--report", "notes"]),
-        "error: cannot write `notes`: it is a file, and `--report` takes a folder\n"
+        "error: cannot write `notes`: it is a file, but `--report` takes a folder\n"
     );
     assert_eq!(
         identify(&["--report", "notes/page"]),
@@ -391,6 +384,6 @@ fn a_report_that_has_no_folder_is_told_before_the_work() {
     );
     assert_eq!(
         identify(&["--json", "none/fit.json"]),
-        "error: cannot write `none/fit.json`: there is no folder `none`; make it first\n"
+        "error: cannot write `none/fit.json`: there is no folder `none`; create it first\n"
     );
 }

@@ -51,7 +51,7 @@ fn the_report_of_an_identification_says_what_was_found_whatever_the_method() {
         let page = Html::parse_document(&html);
         let fit = json(&folder.read("fit.json"));
         // The parameters of the page are those of JSON.
-        let rows = cells(&page, "Intervals hold the value");
+        let rows = cells(&page, "95 % confidence intervals");
         let found = fit["parameters"].as_array().expect("a list");
         assert_eq!(rows.len(), found.len(), "{more:?}");
         for (row, parameter) in rows.iter().zip(found) {
@@ -94,7 +94,7 @@ fn the_report_of_a_payload_says_what_is_carried() {
         folder.succeed(&[&identify[..], &outputs, known].concat());
         let fit = json(&folder.read("fit.json"));
         let page = Html::parse_document(&folder.read("page/index.html"));
-        let rows = cells(&page, "Intervals hold the value");
+        let rows = cells(&page, "95 % confidence intervals");
         let found = [&fit["parameters"], &fit["payload"]["parameters"]];
         let names = found
             .into_iter()
@@ -109,7 +109,11 @@ fn the_report_of_a_payload_says_what_is_carried() {
         );
         assert_eq!(cells(&page, "RMSE and MAE")[0].len(), 13, "{known:?}");
         let verdict = text(all(&page, ".verdict")[0]);
-        assert_eq!(verdict.matches("Most is left of ").count(), 3, "{verdict}");
+        assert_eq!(
+            verdict.matches("Largest residual: ").count(),
+            3,
+            "{verdict}"
+        );
         assert!(!all(&page, "svg").is_empty());
     }
 }
@@ -140,11 +144,11 @@ fn the_report_of_a_model_that_does_not_fit_says_so() {
         html.find(words)
             .unwrap_or_else(|| panic!("no {words}: {html}"))
     };
-    let of_result = place("<h3>What to look at</h3>");
+    let of_result = place("<h3>What to check</h3>");
     let of_files = place("<summary>How the files were read: ");
-    assert!(place("explains next to nothing of the torque") > of_result);
-    assert!(of_result < of_files && of_files < place("robot-model.toml says which columns"));
-    assert!(of_files > place("RMSE and MAE: how far"));
+    assert!(place("explains almost none of the torque") > of_result);
+    assert!(of_result < of_files && of_files < place("robot-model.toml sets the columns"));
+    assert!(of_files > place("RMSE and MAE: root mean square"));
 }
 
 /// The verdict, which joint is worst, what comes next and a bar of the error stand above all that is said of files.
@@ -166,9 +170,9 @@ fn a_page_begins_with_errors_and_the_next_command() {
     let html = folder.read("page/index.html");
     let page = Html::parse_document(&html);
     let verdict = text(all(&page, ".verdict")[0]);
-    for of in ["(fitted).", "(unseen)."] {
+    for of in ["(fitted).", "(validation)."] {
         assert!(
-            verdict.contains("% of the torque of rail is left ") && verdict.contains(of),
+            verdict.contains("% of the torque of rail ") && verdict.contains(of),
             "{verdict}"
         );
     }
@@ -181,7 +185,7 @@ fn a_page_begins_with_errors_and_the_next_command() {
     );
     let bars = place("<svg class=\"bars\"");
     let files = place("<summary>How the files were read: ");
-    assert!(next < bars && bars < place("RMSE and MAE: how far") && bars < files);
+    assert!(next < bars && bars < place("RMSE and MAE: root mean square") && bars < files);
     // It is closed.
     assert_eq!(&html[files - "<details>".len()..files], "<details>");
 }
@@ -211,15 +215,15 @@ fn late_torques_are_to_be_looked_at() {
     };
     let of_files = place("<summary>How the files were read: ");
     let told = place("<li>log.csv: ");
-    assert!(place("<h3>What to look at</h3>") < told && told < of_files);
+    assert!(place("<h3>What to check</h3>") < told && told < of_files);
 }
 
 /// A table with two intervals' worth of numbers says which are whose.
 #[test]
 fn intervals_of_draws_are_told_from_those_of_the_formula() {
     for (more, said) in [
-        (&[][..], "from 1.96 deviations below it to 1.96 above"),
-        (&["--bootstrap", "100"], "those of the draws of --bootstrap"),
+        (&[][..], "1.96 standard deviations to either side"),
+        (&["--bootstrap", "100"], "from the draws of --bootstrap"),
     ] {
         let page = Html::parse_document(&identified(more).read("page/index.html"));
         let captions: Vec<String> = all(&page, "caption").into_iter().map(text).collect();

@@ -37,14 +37,14 @@ fn where_nothing_is_missing_the_page_says_that_nothing_was_added() {
     assert!(text(all(&page, ".verdict")[0]).starts_with("Nothing missing"));
     assert_eq!(
         below(&html, "Change of the spec"),
-        "Nothing was added to the spec: the declared model leaves no structure that matters."
+        "Nothing was added to the spec: the declared model leaves no significant structure."
     );
     assert!(
         !html.contains("amended") && !html.contains("after</"),
         "{html}"
     );
     // All that was looked for, with nothing found but the rate.
-    let looks = cells(&page, "looked through for");
+    let looks = cells(&page, "Checks of the fitted logs");
     assert!(looks.len() >= 10, "{looks:?}");
     for look in &looks {
         assert!(look[1].starts_with("none found"), "{look:?}");
@@ -74,7 +74,7 @@ fn a_verdict_has_units_and_the_fall_of_the_error() {
         items.any(|item| item.starts_with(start) && item.ends_with(end))
     };
     assert!(has("coulomb-friction on rail: fc = 4.0", " N"), "{items:?}");
-    let fall = "on the log that was not fitted the error of rail falls from ";
+    let fall = "on the validation log the error of rail falls from ";
     assert!(has(fall, " % of its torque"), "{items:?}");
 }
 
@@ -92,7 +92,7 @@ fn shapes_of_what_was_found_are_parameters_with_the_intervals_of_the_verdict() {
     let mut items = all(&page, "li").into_iter().map(text);
     let found = items.find(|item| item.starts_with("stribeck on rail: "));
     let found = found.expect("a finding");
-    let rows = cells(&page, "Intervals hold the value");
+    let rows = cells(&page, "95 % confidence intervals");
     for name in ["fs", "vs"] {
         let row = rows
             .iter()
@@ -109,7 +109,7 @@ fn shapes_of_what_was_found_are_parameters_with_the_intervals_of_the_verdict() {
     // What was assumed of the files is there, too.
     assert!(
         html.contains("<summary>How the files were read: ")
-            && html.contains("robot-model.toml says which columns of logs are <code>q</code>"),
+            && html.contains("robot-model.toml sets the columns of <code>q</code>"),
         "{html}"
     );
 }
@@ -120,7 +120,7 @@ fn a_delay_is_said_to_be_found_by_the_data_gate() {
     let page = Html::parse_document(&html);
     let verdict = text(all(&page, ".verdict")[0]);
     assert!(
-        verdict.ends_with("What is wrong with the logs accounts for what the declared model left."),
+        verdict.ends_with("The faults of the logs explain the residual of the declared model."),
         "{verdict}"
     );
     let tried = cells(&page, "Effects that explained most");
@@ -128,7 +128,7 @@ fn a_delay_is_said_to_be_found_by_the_data_gate() {
     for row in delays {
         assert!(row[5].starts_with("found by the data gate"), "{row:?}");
     }
-    let looks = cells(&page, "looked through for");
+    let looks = cells(&page, "Checks of the fitted logs");
     let look = looks
         .iter()
         .find(|look| look[0] == "delays between channels");
@@ -156,7 +156,7 @@ effect seal(j) {
     );
     let (_, html) = traced(&format!("{own}{spec}"), &cart_log(40, 2.0, 0.0));
     let page = Html::parse_document(&html);
-    let rows = cells(&page, "Intervals hold the value");
+    let rows = cells(&page, "95 % confidence intervals");
     let told = |name: &str| {
         let row = rows.iter().find(|row| row[0] == name);
         let row = row.unwrap_or_else(|| panic!("{name}: {rows:?}"));
@@ -173,10 +173,10 @@ effect seal(j) {
 #[test]
 fn a_page_says_of_which_files_it_is() {
     let (folder, html) = traced(CART, &cart_log(20, 0.0, 0.0));
-    let version = format!("by robot-model {}:", env!("CARGO_PKG_VERSION"));
+    let version = format!("with robot-model {}:", env!("CARGO_PKG_VERSION"));
     assert!(below(&html, "Again").contains(&version), "{html}");
     let page = Html::parse_document(&html);
-    let files = cells(&page, "Files that were read");
+    let files = cells(&page, "Input files");
     let names: Vec<&str> = files.iter().map(|row| row[0].as_str()).collect();
     assert_eq!(names, ["cart.robot", "log.csv"]);
     assert_eq!(files[0][1], CART.len().to_string());
@@ -189,7 +189,7 @@ fn a_page_says_of_which_files_it_is() {
     let log = folder.read("log.csv");
     folder.write("log.csv", &format!("{}1\n", log.trim_end()));
     let other = Html::parse_document(&again());
-    let others = cells(&other, "Files that were read");
+    let others = cells(&other, "Input files");
     assert_eq!(files[0], others[0]);
     assert_ne!(files[1][2], others[1][2]);
 }

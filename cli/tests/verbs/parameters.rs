@@ -46,11 +46,9 @@ fn eval_takes_standard_and_base_parameters() {
         "error: parameters.json:1:46: Cart has no parameter `cart.mass`; is `cart.m` meant?\n  |\n1 | {\"cart.m\": 3, \
          \"rail.viscous_friction.fv\": 5, \"cart.mass\": 3}\n  |                                              ^\n"
     );
-    assert!(
-        folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
-            "error: parameters.json:1:14: it is no JSON: trailing comma; repair it here"
-        )
-    );
+    assert!(folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
+        "error: parameters.json:1:14: it is not JSON: trailing comma; repair it here"
+    ));
 }
 
 /// What stands where JSON should is told for what it is, and a name that is near no other with those that there are.
@@ -85,7 +83,7 @@ fn tables_and_names_of_nothing_are_told() {
     ] {
         let said = refuse(file);
         let wanted = format!(
-            "error: {file}: it looks like {what}, and JSON has to stand here; parameters are written "
+            "error: {file}: it looks like {what}, but JSON is expected here; parameters are written "
         );
         assert!(said.starts_with(&wanted), "{said}");
     }
@@ -108,12 +106,12 @@ fn slips_in_a_parameter_file_are_told() {
     for (text, said) in [
         (
             r#"{"cart.m": 3, "cart.m": 4, "rail.viscous_friction.fv": 5}"#,
-            "`cart.m` stands there more than once; keep the value that is meant".to_owned(),
+            "`cart.m` appears more than once; keep the right value".to_owned(),
         ),
         ("[3, 5]", format!("it is a list: {forms}")),
         (
             r#"{"parameters": [{"name": "cart.m", "value": 3}, {"value": 5}]}"#,
-            format!("entry 2 of `parameters` has no `name` that is text: {forms}"),
+            format!("entry 2 of `parameters` has no text `name`: {forms}"),
         ),
         (
             r#"{"parameters": [{"name": "cart.m"}]}"#,
@@ -121,8 +119,7 @@ fn slips_in_a_parameter_file_are_told() {
         ),
         (
             r#"{"parameters": [{"name": "cart.m", "value": 3}, {"name": "cart.m", "value": 3}]}"#,
-            "parameter `cart.m` stands there more than once; keep the value that is meant"
-                .to_owned(),
+            "parameter `cart.m` appears more than once; keep the right value".to_owned(),
         ),
     ] {
         folder.write("parameters.json", text);
@@ -136,16 +133,15 @@ fn slips_in_a_parameter_file_are_told() {
     for (text, said) in [
         (
             "{\"rail.viscous_friction.fv\": 5,\n \"cart.m\": \"heavy\"}",
-            format!("2:2: `cart.m` is text, where a number is wanted: {forms}\n"),
+            format!("2:2: `cart.m` is text, but must be a number: {forms}\n"),
         ),
         (
             r#"{"cart.m": null, "rail.viscous_friction.fv": 5}"#,
-            "1:2: `cart.m` is null; write its value, or leave it out where the spec has one\n"
-                .to_owned(),
+            "1:2: `cart.m` is null; write its value, or remove it if the spec has one\n".to_owned(),
         ),
         (
             "{\"parameters\": [\n{\"name\": \"cart.m\", \"value\": \"3\"}]}",
-            "2:10: the `value` of `cart.m` is text, where a number is wanted\n".to_owned(),
+            "2:10: the `value` of `cart.m` is text, but must be a number\n".to_owned(),
         ),
     ] {
         folder.write("parameters.json", text);
@@ -159,7 +155,7 @@ fn slips_in_a_parameter_file_are_told() {
     folder.write("parameters.json", large);
     assert_eq!(
         folder.refuse(&CART_WITH_PARAMETERS),
-        "error: parameters.json:1:16: it is no JSON: number out of range; repair it here\n  \
+        "error: parameters.json:1:16: it is not JSON: number out of range; repair it here\n  \
            |\n1 | {\"cart.m\": 1e999, \"rail.viscous_friction.fv\": 5}\n  |                ^\n"
     );
 }
@@ -185,8 +181,8 @@ fn values_that_no_arm_has_are_told() {
     let (torque, said) = warned(r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#);
     assert_eq!((torque, said), (Value::from(8.0), String::new()));
     let (torque, said) = warned(r#"{"cart.m": -3, "rail.viscous_friction.fv": -0.5}"#);
-    let wanted = "warning: parameters.json: `cart.m` is -3, and no arm has a negative one\n\
-                  warning: parameters.json: `rail.viscous_friction.fv` is -0.5, and no arm has a negative one\n";
+    let wanted = "warning: parameters.json: `cart.m` is -3, but cannot be negative\nwarning: parameters.json: `rail.viscous_friction.fv` \
+                  is -0.5, but cannot be negative\n";
     assert_eq!((torque, said.as_str()), (Value::from(-3.5), wanted));
 
     // Slender rods whose mass is farther from the joint than their moment of inertia says, and sums of what is not negative.
@@ -199,7 +195,7 @@ fn values_that_no_arm_has_are_told() {
     folder.write("parameters.json", r#"{"lower.izz": 0.03}"#);
     let run = folder.run(&eval);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let wanted = "warning: parameters.json: link `lower` has an inertia that no body has: ";
+    let wanted = "warning: parameters.json: link `lower` has a physically impossible inertia: ";
     assert!(run.stderr.starts_with(wanted), "{}", run.stderr);
 }
 
@@ -221,8 +217,8 @@ fn parts_of_a_set_of_base_parameters_are_told() {
         ),
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izz": 1}"#,
-            ": `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no \
-             others: Pendulum has 6 base parameters, the file lacks `lower.izzr`, and has besides `lower.izz`",
+            ": `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no others: \
+             Pendulum has 6 base parameters, the file lacks `lower.izzr`, and also has `lower.izz`",
         ),
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izrr": 1}"#,
@@ -254,7 +250,8 @@ fn values_from_the_spec_are_told() {
     );
     let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
     let run = folder.run(&eval);
-    let wanted = "note: parameters.json: no value for 4 parameters: the spec's for `upper.m`, `upper.mx`, `upper.my`, `upper.izz`\n";
+    let wanted = "note: parameters.json: no value for 4 parameters: the spec's value is used for `upper.m`, `upper.mx`, `upper.my`, \
+                  `upper.izz`\n";
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), wanted));
 }
 
@@ -332,6 +329,6 @@ fn a_shape_is_what_the_law_allows() {
     let said = folder.refuse(&CART_WITH_PARAMETERS);
     assert_eq!(
         said,
-        "error: parameters.json: `rail.stribeck.vs` is -0.01; it has to be a positive number\n"
+        "error: parameters.json: `rail.stribeck.vs` is -0.01; it must be a positive number\n"
     );
 }

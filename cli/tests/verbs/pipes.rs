@@ -47,7 +47,7 @@ fn named_pipes_and_devices_are_refused_at_once() {
     ] {
         let said = folder.refuse(arguments);
         let wanted = format!(
-            "error: cannot read `{file}`: it is {what}; write what it has into a file, and name that\n"
+            "error: cannot read `{file}`: it is {what}; save its content to a file, and name that\n"
         );
         assert!(said.ends_with(&wanted), "{arguments:?}: {said}");
     }

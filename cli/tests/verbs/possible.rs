@@ -88,7 +88,7 @@ fn noise_makes_no_impossible_arm() {
         "{free}"
     );
     assert!(
-        said.contains("border of what is possible: `lower.viscous_friction.fv`"),
+        said.contains("boundary of physical possibility: `lower.viscous_friction.fv`"),
         "{said}"
     );
     assert!(said.contains("found by Newton's method with log-determinant barriers in "));
@@ -266,7 +266,7 @@ fn cad_that_is_far_off_is_told() {
     let noted = || {
         let arguments = ["identify", "arm.robot", "log.csv", "--method", "physical"];
         let run = folder.run(&arguments);
-        run.stderr.contains("nominal values of the spec move")
+        run.stderr.contains("the spec's nominal values pull")
     };
     let (_, out) = identify(&folder, "physical");
     assert_eq!((pulled(&out), noted()), (0, false), "{out}");

@@ -91,7 +91,7 @@ fn the_misprint_of_seed_004_is_told_as_a_term_of_joint_3() {
     assert!(number("share") > 0.8, "{told}");
     assert!((number("coefficient") + 0.69e-3).abs() < 0.03e-3, "{told}");
     assert!(
-        told.contains("times cos(theta2 - theta3) dtheta2^2, a term of the equations"),
+        told.contains("times the term cos(theta2 - theta3) dtheta2^2 of the equations"),
         "{told}"
     );
 }

@@ -89,8 +89,8 @@ fn a_log_in_radians_is_told_where_the_spec_has_another_unit() {
         folder.write("declared.robot", &SPEC.replace("LOG", &declared));
         let said = folder.run(&["identify", "declared.robot", "radians.csv"]);
         let asked = format!(
-            "are they in radians? They are read as if the spec, a robot-model.toml or a line of units had them in {plural}: \
-             `log {{ q = \"q1\": rad, ..; }}`, or `unit = \"rad\"` in the settings"
+            "are they in radians? The spec, a robot-model.toml or a line of units says {plural}; write `log {{ q = \"q1\": rad, ..; }}`, \
+             or `unit = \"rad\"` in the settings"
         );
         assert!(said.stderr.contains(&asked), "{}", said.stderr);
     }
@@ -161,24 +161,24 @@ fn columns_in_another_order_are_told_by_the_torques() {
         folder.run(&["identify", "arm.robot", "other.csv"]).stderr
     };
     let exchanged = said(&[("tau1", "tau2"), ("tau2", "tau1")]);
-    let told = "with the torques of `turn` and `lift` exchanged the model leaves";
+    let told = "with the torques of `turn` and `lift` swapped the residual is";
     assert!(exchanged.contains(told), "{exchanged}");
     // Beside a torque of another joint no position is late.
     assert!(!exchanged.contains(" late against"), "{exchanged}");
     let around = said(&[("tau1", "tau2"), ("tau2", "tau3"), ("tau3", "tau1")]);
     // The spec's first joint has what is called `tau2`.
-    let told = "with the torques in the order `lift`, `bend`, `turn` the model leaves";
+    let told = "with the torques in the order `lift`, `bend`, `turn` the residual is";
     assert!(around.contains(told), "{around}");
     let moved = [("q2", "q3"), ("q3", "q2"), ("dq2", "dq3"), ("dq3", "dq2")];
     let positions = said(&moved);
-    let told = "with the positions of `lift` and `bend` exchanged the model leaves";
+    let told = "with the positions of `lift` and `bend` swapped the residual is";
     assert!(positions.contains(told), "{positions}");
     let torques = [("tau2", "tau3"), ("tau3", "tau2")];
     let both = said(&[&moved[..], &torques].concat());
-    let told = "with positions and torques of `lift` and `bend` exchanged the model leaves";
+    let told = "with positions and torques of `lift` and `bend` swapped the residual is";
     assert!(both.contains(told), "{both}");
     let right = said(&[]);
-    assert!(!right.contains("the model leaves"), "{right}");
+    assert!(!right.contains("the residual is"), "{right}");
 }
 
 /// A log without velocities, and with a column that is another multiple of what it was.
@@ -217,19 +217,19 @@ fn one_joint_in_degrees_or_of_the_other_sign_is_told_by_the_torques() {
         (
             "q2",
             -1.0,
-            "position of `lift` the other way round",
+            "position of `lift` with the opposite sign",
             "q = \"q2\": -1 rad",
         ),
         (
             "tau3",
             -1.0,
-            "torque of `bend` the other way round",
+            "torque of `bend` with the opposite sign",
             "tau = \"tau3\": -1 Nm",
         ),
     ] {
         folder.write("other.csv", &scaled(&header, &rows, column, factor));
         let said = folder.run(&["identify", "arm.robot", "other.csv"]).stderr;
-        let told = format!("with the {told} the model leaves");
+        let told = format!("with the {told} the residual is");
         assert!(said.contains(&told) && said.contains(way_out), "{said}");
     }
 }
@@ -243,7 +243,7 @@ fn a_torque_is_the_other_way_round_where_the_arm_is_possible() {
     for (column, joint) in [("tau1", "up"), ("tau2", "lo")] {
         folder.write("other.csv", &scaled(header, rows, column, -1.0));
         let said = folder.run(&["identify", "arm.robot", "other.csv"]).stderr;
-        let told = format!("with the torque of `{joint}` the other way round the model leaves");
+        let told = format!("with the torque of `{joint}` with the opposite sign the residual is");
         assert!(said.contains(&told), "{said}");
     }
 }
@@ -262,7 +262,7 @@ fn a_column_that_the_spec_turns_is_that_of_the_joint() {
         .run(&["identify", "turned.robot", "other.csv"])
         .stderr;
     assert!(
-        !said.contains("the model leaves") && !said.contains("error"),
+        !said.contains("the residual is") && !said.contains("error"),
         "{said}"
     );
 }
@@ -288,7 +288,7 @@ fn accelerations_of_a_coarse_encoder_are_told() {
     folder.write("coarse.csv", &coarse(10));
     folder.write("fine.csv", &coarse(20));
     let said = |log: &str| folder.run(&["identify", "plain.robot", log]).stderr;
-    let told = "accelerations are to a large part noise of the positions";
+    let told = "accelerations are largely position noise";
     let coarse = said("coarse.csv");
     assert!(
         coarse.contains(told) && coarse.contains("`turn` "),
@@ -343,7 +343,7 @@ fn a_torque_of_the_other_sign_is_told_where_the_arm_fits_all_the_same() {
     let (header, rows) = log.split_once('\n').expect("a header");
     folder.write("other.csv", &scaled(header, rows, "tau2", -1.0));
     let said = |log: &str| folder.run(&["identify", "arm.robot", log]).stderr;
-    let asked = "with the torque of `lo` the other way round";
+    let asked = "with the torque of `lo` with the opposite sign";
     assert!(said("other.csv").contains(asked), "{}", said("other.csv"));
     assert!(!said("log.csv").contains(asked), "{}", said("log.csv"));
 }

@@ -119,7 +119,7 @@ fn the_manual_has_a_page_of_every_verb() {
     assert!(
         folder
             .refuse(&["man", "--out", "file/man1"])
-            .contains("cannot be made")
+            .contains("cannot be created")
     );
     // With the folders around it, as the README's command wants them.
     folder.succeed(&["man", "--out", "share/man/man1"]);

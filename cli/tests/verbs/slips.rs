@@ -27,7 +27,7 @@ fn files_in_the_place_of_a_spec_are_told() {
     std::fs::write(folder.path("log.csv.gz"), b"\x1f\x8b\x08\0").expect("a file");
     for log in ["log.csv", "log.csv.gz"] {
         let way_out = format!(
-            "name the spec first and logs behind it, as in `robot-model identify arm.robot {log}`"
+            "name the spec first and the logs after it, as in `robot-model identify arm.robot {log}`"
         );
         refused(
             &folder,
@@ -68,7 +68,7 @@ fn files_that_are_not_there_are_told_with_the_nearest() {
     refused(
         &folder,
         &["check", "amr.robot"],
-        &["cannot read `amr.robot`: there is no such file; is `arm.robot` meant?"],
+        &["cannot read `amr.robot`: there is no such file; did you mean `arm.robot`?"],
     );
     refused(
         &folder,
@@ -92,7 +92,7 @@ fn parameters_of_another_arm_are_told() {
     refused(
         &folder,
         &["audit", "arm.robot", "--parameters", "fit.json"],
-        &["the file seems to be of another arm: name the spec that it was identified with"],
+        &["the file seems to be for another arm: name the spec that it was identified with"],
     );
 }
 

@@ -25,7 +25,7 @@ fn a_slower_log_is_judged_in_a_band_that_it_bears() {
         assert!(
             run.stderr
                 .contains("note: slow.csv: 40 samples a second are too few")
-                && run.stderr.contains("errors are those below 4.0 Hz"),
+                && run.stderr.contains("errors are computed below 4.0 Hz"),
             "{}",
             run.stderr
         );

@@ -49,7 +49,7 @@ fn the_valley_of_a_stribeck_curve_is_found() {
     let run = folder.run(&[&identify[..], &["--method", "output-error"]].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
-        run.stderr.contains("looking from start 6 of"),
+        run.stderr.contains("searching from start 6 of"),
         "{}",
         run.stderr
     );

@@ -88,7 +88,7 @@ fn dwells_between_two_moves_say_nothing_of_friction() {
     folder.succeed(&simulate.split_whitespace().collect::<Vec<_>>());
     let told = folder.succeed(&["identify", "arm.robot", "log.csv", "--json", "out.json"]);
     assert!(
-        told.contains("left out, where dry friction holds"),
+        told.contains("left out, at long rests held by dry friction"),
         "{told}"
     );
     let out = json(&folder.read("out.json"));

@@ -121,7 +121,7 @@ fn what_the_other_log_does_not_bear_out_is_said() {
         );
         let out = json(&folder.read("out.json"));
         assert_eq!(out["borne_out"], is_borne_out, "{out}");
-        let is_said = told.contains("that log does not bear it out");
+        let is_said = told.contains("the validation log does not confirm it");
         assert_eq!(is_said, !is_borne_out, "{told}");
         // What the one log has and the other has not is much of its error.
         assert_eq!(
@@ -131,7 +131,7 @@ fn what_the_other_log_does_not_bear_out_is_said() {
         );
     }
     let told = folder.succeed(&["trace", "cart.robot", "log.csv", "--json", "out.json"]);
-    assert!(!told.contains("bear it out"), "{told}");
+    assert!(!told.contains("confirm it"), "{told}");
     assert_eq!(json(&folder.read("out.json"))["borne_out"], Value::Null);
 }
 
@@ -258,7 +258,7 @@ fn what_hides_in_a_parameter_below_zero_is_told() {
         let told = folder.succeed(&["trace", "cart.robot", "log.csv", "--json", "out.json"]);
         let out = json(&folder.read("out.json"));
         assert_eq!(out["outcome"], "nothing-missing", "{told}");
-        let below = "is below zero, as no arm has it: something that the spec lacks";
+        let below = "is negative, which is physically impossible: an undeclared effect looks like";
         assert_eq!(told.contains(below), is_told, "{told}");
         let found = out["impossible"].as_array().expect("a list");
         assert_eq!(found.len(), usize::from(is_told), "{out}");

@@ -90,7 +90,7 @@ fn a_log_that_waits_is_judged_as_it_would_be_fitted() {
     let (table, [fitted, judged, _]) = identify("waits.csv", "moves.csv");
     assert!(judged < 1.5 * fitted && fitted < 10.0, "{judged} {fitted}");
     assert!(
-        table.contains("without the rests of joints that dry friction holds"),
+        table.contains("without rows at rest held by dry friction"),
         "{table}"
     );
 }
@@ -239,7 +239,11 @@ fn a_curve_of_friction_is_looked_for_without_the_turns() {
             let identify = ["identify", "arm.robot", &log, "--method", method];
             let ran = folder.run(&[&identify[..], &["--json", "fit.json"]].concat());
             assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-            assert!(ran.stderr.contains("turn are left out"), "{}", ran.stderr);
+            assert!(
+                ran.stderr.contains("with dry friction are left out"),
+                "{}",
+                ran.stderr
+            );
             let fit = json(&folder.read("fit.json"));
             let found = fit["parameters"].as_array().expect("a list");
             for (parameter, (name, truth)) in found.iter().zip(&truth) {
@@ -287,7 +291,7 @@ fn a_curve_that_turns_alone_tell_is_doubted() {
     let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let told =
-        "`j.stribeck.vs` is looked for with the rows where joints turn, as no others tell it";
+        "`j.stribeck.vs` is fitted on rows near velocity reversals, as no other rows determine it";
     assert!(run.stderr.contains(told), "{}", run.stderr);
     let fit = json(&folder.read("fit.json"));
     let mut found = fit["parameters"].as_array().expect("a list").iter();
@@ -304,22 +308,22 @@ fn rows_at_turns_are_left_out_where_that_is_asked() {
     folder.write("log.csv", &cart_log(20, 2.0, 0.0));
     let identify = ["identify", "cart.robot", "log.csv"];
     for (more, line, is_noted) in [
-        (&[][..], "of these where joints turn: rail", false),
+        (&[][..], "of these near velocity reversals: rail", false),
         (
             &["--judge-turns"],
-            "left out, where joints turn: rail",
+            "left out, near velocity reversals: rail",
             true,
         ),
         (
             &["--leave-out-turns"],
-            "left out, where joints turn: rail",
+            "left out, near velocity reversals: rail",
             false,
         ),
     ] {
         let run = folder.run(&[&identify[..], more].concat());
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         assert!(run.stdout.contains(line), "{more:?}: {}", run.stdout);
-        let note = run.stderr.contains("turn are left out");
+        let note = run.stderr.contains("with dry friction are left out");
         assert_eq!(note, is_noted, "{more:?}: {}", run.stderr);
     }
     let both = ["--judge-turns", "--leave-out-turns"];
@@ -353,7 +357,9 @@ fn factors_know_what_rows_at_turns_move_estimates_by() {
             let is_left_out = more == ["--leave-out-turns"];
             for report in [&direct, &merged] {
                 let said = report["turns_left_out"].as_bool().expect("yes or no");
-                let is_noted = report["notes"].to_string().contains("turn are left out");
+                let is_noted = report["notes"]
+                    .to_string()
+                    .contains("with dry friction are left out");
                 assert!(said || !is_left_out);
                 assert_eq!(said && !is_left_out, is_noted, "{more:?}: {report}");
             }

@@ -105,19 +105,19 @@ fn mended() -> Vec<Fault> {
         (
             "spikes",
             changed(spikes),
-            "tau1: 41 samples are far from both their neighbors",
+            "tau1: 41 samples are far from both neighbors",
             Some("spikes"),
         ),
         (
             "held samples",
             changed(held),
-            "tau1 stands still while the arm moves on",
+            "tau1 is frozen while the arm moves",
             Some("held"),
         ),
         (
             "a drive at its limit",
             changed(|_, [t, q, dq, tau]| [t, q, dq, tau.clamp(-12.0, 12.0)]),
-            "tau1 stands at its limit of 12",
+            "tau1 is at its limit of 12",
             Some("clipped"),
         ),
         (
@@ -182,7 +182,7 @@ fn what_cannot_be_mended_is_told_first() {
             "degrees",
             changed(degrees),
             [
-                "with positions in degrees the model leaves",
+                "with positions in degrees the residual is",
                 "`log { q = \"q1\": deg, ..; }`",
             ],
         ),
@@ -190,7 +190,7 @@ fn what_cannot_be_mended_is_told_first() {
             "revolutions",
             changed(turns),
             [
-                "with positions in revolutions the model leaves",
+                "with positions in revolutions the residual is",
                 "`log { q = \"q1\": rev, ..; }`",
             ],
         ),

@@ -44,12 +44,12 @@ impl std::fmt::Display for RankStatus {
                 largest_dropped,
             } => write!(
                 f,
-                "rank is clear: least left of a kept column {smallest_kept:.1e}, most left of a dropped one {largest_dropped:.1e}"
+                "rank is clear: smallest remainder of a kept column {smallest_kept:.1e}, largest of a dropped one {largest_dropped:.1e}"
             ),
             Self::Unclear(columns) => {
                 write!(
                     f,
-                    "the base parameters are not certain: between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e},"
+                    "the base parameters are uncertain: between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e},"
                 )?;
                 for column in columns {
                     write!(f, " `{}` has {:.1e} left", column.name, column.residual)?;

@@ -82,7 +82,7 @@ fn link(field: &RobotField, model: &Model, chain: &Chain, effects: &Effects) -> 
         return Err(mistake(
             field.span,
             format!(
-                "the inertial of link `{}` is fixed, so there is nothing to hold but effects: write `{}: {}`",
+                "the inertial of link `{}` is fixed, so its field holds only effects: write `{}: {}`",
                 chain.links[joint].name,
                 field.name,
                 effect_types(effects)
@@ -115,7 +115,7 @@ fn no_link(field: &RobotField, model: &Model, effects: &Effects) -> String {
     } else {
         format!("write `{name}: {}`", effect_types(effects))
     };
-    format!("a robot of energies has no links: {instead}")
+    format!("a robot defined by energies has no links: {instead}")
 }
 
 /// The field that holds an unknown constant is called as it is, or in snake case where that is no other name's: `ia_yy` holds
@@ -215,7 +215,7 @@ fn bind_effects(
                 errors.mistake(
                     one.effect.span(),
                     format!(
-                        "`{}` declares no `{}` on {}: declare it there, or take the type away",
+                        "`{}` declares no `{}` on {}: declare it there, or remove the type",
                         model.source,
                         one.effect,
                         on_text(field)

@@ -69,7 +69,7 @@ impl<'a> Robot<'a> {
             Fields::Unnamed(_) => {
                 return Err(mistake(
                     name.span(),
-                    "what a robot holds has names: write a struct with named fields",
+                    "a robot's fields have names: write a struct with named fields",
                 ));
             }
         };
@@ -88,7 +88,7 @@ impl<'a> Robot<'a> {
                 Some((name, "effects")) if effects.is_none() => effects = Some(name),
                 Some((name, key)) => errors.mistake(
                     name.span,
-                    format!("`{key}` is given twice: take one of them away"),
+                    format!("`{key}` is given twice: remove one of them"),
                 ),
             }
         }
@@ -96,9 +96,7 @@ impl<'a> Robot<'a> {
             for attribute in named(&input.attrs, name) {
                 errors.mistake(
                     attribute.path().span(),
-                    format!(
-                        "`#[{name}(..)]` stands at a field: move it to the one that it is about"
-                    ),
+                    format!("`#[{name}(..)]` belongs on a field: move it to its field"),
                 );
             }
         }
@@ -134,19 +132,21 @@ impl<'a> RobotField<'a> {
         if let (None, Some(attribute)) = (&joint, named(&field.attrs, "inertial").next()) {
             errors.mistake(
                 attribute.path().span(),
-                format!("`{name}` has an inertial but no joint that moves it: write `#[joint(..)]`, or take `#[inertial(..)]` away"),
+                format!("`{name}` has an inertial but no joint that moves it: write `#[joint(..)]`, or remove `#[inertial(..)]`"),
             );
         }
         if let (Some(_), Some(attribute)) = (&joint, named(&field.attrs, "on").next()) {
             errors.mistake(
                 attribute.path().span(),
-                format!("the effects of joint `{name}` act on `{name}`: give `#[on(..)]` a field of its own"),
+                format!(
+                    "the effects of joint `{name}` act on `{name}`: give `#[on(..)]` its own field"
+                ),
             );
         }
         for attribute in named(&field.attrs, "robot") {
             errors.mistake(
                 attribute.path().span(),
-                "`#[robot(..)]` stands at the struct: move it there",
+                "`#[robot(..)]` belongs on the struct: move it there",
             );
         }
         let effects = match &mut holds {
@@ -175,8 +175,7 @@ fn give_shapes(effects: &mut [EffectType], entry: &TokenStream) -> syn::Result<(
     else {
         return Err(mistake(
             entry.span(),
-            "effects are declared by the field's type; here stand values of their shape parameters: write \
-             `#[effects(stribeck(vs = 0.1))]`",
+            "the field's type declares effects; this attribute sets their shape parameters: write `#[effects(stribeck(vs = 0.1))]`",
         ));
     };
     let wanted = effects
@@ -260,13 +259,13 @@ fn entries(attributes: &[Attribute], name: &str) -> syn::Result<Option<Vec<Token
     if let Some(second) = found.next() {
         return Err(mistake(
             second.path().span(),
-            format!("`#[{name}(..)]` is there twice: write its entries into the first"),
+            format!("`#[{name}(..)]` appears twice: write its entries into the first"),
         ));
     }
     let Meta::List(list) = &attribute.meta else {
         return Err(mistake(
             attribute.path().span(),
-            format!("the entries of `{name}` stand in parentheses: write `#[{name}(..)]`"),
+            format!("the entries of `{name}` need parentheses: write `#[{name}(..)]`"),
         ));
     };
     let (mut entries, mut entry) = (Vec::new(), TokenStream::new());

@@ -26,7 +26,7 @@ fn in_file(robot: &Robot, file: &FileName, read: ReadFile<'_>) -> syn::Result<Mo
     let mut errors = Errors::default();
     let elsewhere = |what: &str, here: &str| {
         let file = &file.name;
-        format!("{what} stands in `{file}`: take {here} away")
+        format!("{what} is in `{file}`: remove {here}")
     };
     for entry in &robot.settings {
         let what = elsewhere("the robot's description", "this entry");
@@ -120,7 +120,7 @@ fn in_rust(said: &Diagnostic) -> syn::Error {
 fn in_a_field(message: &str) -> Option<String> {
     let (effect, count) = message.strip_prefix("effect `")?.split_once("` acts on ")?;
     let holds = type_name(effect);
-    let own = |on: &str| format!("give it a field of its own: `#[on({on})] {effect}: {holds}`");
+    let own = |on: &str| format!("give it its own field: `#[on({on})] {effect}: {holds}`");
     Some(match count {
         "the arm as a whole" => own(""),
         "one joint" => format!("write it into the type of its joint: `Link<{holds}>`"),
@@ -234,8 +234,8 @@ fn joint(field: &RobotField) -> syn::Result<TokenStream> {
             return Err(mistake(
                 field.span,
                 format!(
-                    "`{name}` is an unknown constant, and a chain has none beside its links: describe the robot by its \
-                 energies with `#[robot(file = \"..\")]`, or hold `Link<..>` or effects"
+                    "`{name}` is an unknown constant, which a chain cannot have: describe the robot by its energies with `#[robot(file = \
+                     \"..\")]`, or hold `Link<..>` or effects"
                 ),
             ));
         }
@@ -257,7 +257,7 @@ fn joint(field: &RobotField) -> syn::Result<TokenStream> {
             return Err(mistake(
                 field.span,
                 format!(
-                    "`{name}` acts on no joint: write `#[joint(..)]` where it is one, `#[on(joint, joint)]`, or `#[on()]` for the arm as a whole"
+                    "`{name}` acts on no joint: write `#[joint(..)]` if it is one, `#[on(joint, joint)]`, or `#[on()]` for the arm as a whole"
                 ),
             ));
         }
@@ -269,7 +269,7 @@ fn joint(field: &RobotField) -> syn::Result<TokenStream> {
         return Err(mistake(
             first.map_or(name.span(), Spanned::span),
             format!(
-                "joint `{name}` does not say what it is: write `#[joint(revolute, ..)]` or `#[joint(prismatic, ..)]`"
+                "joint `{name}` has no kind: write `#[joint(revolute, ..)]` or `#[joint(prismatic, ..)]`"
             ),
         ));
     };

@@ -52,7 +52,7 @@ fn item(definition: &EffectDefinition) -> TokenStream {
     });
     let shapes = definition.shapes.iter().map(|shape| {
         let (doc, name) = (lines(&shape.doc), field(&shape.name));
-        let range = format!(" Looked for in {} .. {}.", shape.low, shape.high);
+        let range = format!(" Searched in {} .. {}.", shape.low, shape.high);
         quote!(#(#[doc = #doc])* #[doc = #range] pub #name: f64,)
     });
     let zeros = definition.linear.iter().map(|linear| field(&linear.name));

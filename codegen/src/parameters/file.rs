@@ -69,10 +69,10 @@ fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> 
         .map(|(name, value)| match value.as_f64() {
             Some(value) => Ok((name.clone(), value)),
             None if value.is_null() => Err(format!(
-                "`{name}` is null; write its value, or leave it out where the spec has one"
+                "`{name}` is null; write its value, or remove it if the spec has one"
             )),
             None => Err(format!(
-                "`{name}` is {}, where a number is wanted: {FORMS}",
+                "`{name}` is {}, but must be a number: {FORMS}",
                 json::kind(value)
             )),
         })
@@ -110,12 +110,12 @@ fn identified(list: &[Value], unexcited: Option<&Value>) -> Result<BTreeMap<Stri
         Some(names) => names
             .as_array()
             .and_then(|names| names.iter().map(Value::as_str).collect())
-            .ok_or("`unexcited` has to be a list of names")?,
+            .ok_or("`unexcited` must be a list of names")?,
     };
     for (k, entry) in list.iter().enumerate() {
         let Some(name) = entry.get("name").and_then(Value::as_str) else {
             return Err(format!(
-                "entry {} of `parameters` has no `name` that is text: {FORMS}",
+                "entry {} of `parameters` has no text `name`: {FORMS}",
                 k + 1
             ));
         };
@@ -129,12 +129,12 @@ fn identified(list: &[Value], unexcited: Option<&Value>) -> Result<BTreeMap<Stri
             }
             Some(value) => value.as_f64().ok_or_else(|| {
                 let kind = json::kind(value);
-                format!("the `value` of `{name}` is {kind}, where a number is wanted")
+                format!("the `value` of `{name}` is {kind}, but must be a number")
             })?,
         };
         if values.insert(name.to_owned(), value).is_some() {
             return Err(format!(
-                "parameter `{name}` stands there more than once; keep the value that is meant"
+                "parameter `{name}` appears more than once; keep the right value"
             ));
         }
     }
@@ -142,8 +142,8 @@ fn identified(list: &[Value], unexcited: Option<&Value>) -> Result<BTreeMap<Stri
         return Ok(values);
     }
     Err(format!(
-        "the logs did not separate {} from other parameters, so the file holds no value that is valid on another motion; \
-         identify on logs that move the joints concerned, or give values in a file of your own",
+        "the logs did not separate {} from other parameters, so the file has no value valid for other motions; identify from logs that \
+         excite the joints concerned, or give values in your own file",
         names(&without)
     ))
 }

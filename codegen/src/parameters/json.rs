@@ -56,10 +56,9 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         let reason = if notes.room.get().is_none() {
             format!("the values up to here take more than {most} bytes; write fewer into one file")
         } else if said == "recursion limit exceeded" {
-            "lists and objects are nested more than a hundred deep; write fewer into one another"
-                .to_owned()
+            "lists and objects are nested more than a hundred deep; nest them less".to_owned()
         } else {
-            format!("it is no JSON: {said}; repair it here")
+            format!("it is not JSON: {said}; repair it here")
         };
         Fault {
             line: Some((error.line(), error.column())),
@@ -71,11 +70,15 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         return Ok(value);
     }
     let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
-    let verb = if twice.len() == 1 { "stands" } else { "stand" };
+    let verb = if twice.len() == 1 {
+        "appears"
+    } else {
+        "appear"
+    };
     Err(Fault {
         line: None,
         reason: format!(
-            "{} {verb} there more than once; keep the value that is meant",
+            "{} {verb} more than once; keep the right value",
             names(&twice)
         ),
     })
@@ -236,14 +239,11 @@ mod tests {
     #[test]
     fn keys_that_stand_twice_are_told() {
         let (_, one) = refused(r#"{"a":1,"b":2,"a":1}"#);
-        assert_eq!(
-            one,
-            "`a` stands there more than once; keep the value that is meant"
-        );
+        assert_eq!(one, "`a` appears more than once; keep the right value");
         let (_, several) = refused(r#"{"c":[{"b":1},{"d":{"a":1,"a":2,"a":3}}],"b":2,"b":{}}"#);
         assert_eq!(
             several,
-            "`c[1].d.a`, `b` stand there more than once; keep the value that is meant"
+            "`c[1].d.a`, `b` appear more than once; keep the right value"
         );
     }
 
@@ -255,7 +255,7 @@ mod tests {
             ("[1e999]", (1, 6), "number out of range"),
             ("[NaN]", (1, 2), "expected value"),
         ] {
-            let wanted = format!("it is no JSON: {said}; repair it here");
+            let wanted = format!("it is not JSON: {said}; repair it here");
             assert_eq!(refused(text), (Some(line), wanted), "{text}");
         }
     }

@@ -205,7 +205,7 @@ fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), ValuesError> {
             Some(near @ [_, ..]) => format!("; are {} meant?", names(near)),
             // Most names of another arm are those of no parameter here.
             _ if 2 * unknown.len() > given.len() => {
-                "; the file seems to be of another arm: name the spec that it was identified with"
+                "; the file seems to be for another arm: name the spec that it was identified with"
                     .to_owned()
             }
             _ => {
@@ -244,7 +244,7 @@ fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), ValuesError> {
         names(&regrouped),
         counted(base.len(), "base parameter"),
         part("the file lacks", &lacks),
-        part("and has besides", &besides),
+        part("and also has", &besides),
     )
     .into())
 }

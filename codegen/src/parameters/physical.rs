@@ -47,7 +47,7 @@ pub(super) fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
 #[must_use]
 pub fn no_body(link: &str) -> String {
     format!(
-        "link `{link}` has an inertia that no body has: about the center of mass each principal moment is positive and at most the \
+        "link `{link}` has a physically impossible inertia: about the center of mass each principal moment must be positive and at most the \
          sum of the other two"
     )
 }
@@ -55,5 +55,5 @@ pub fn no_body(link: &str) -> String {
 fn negative(name: &str, value: f64) -> Option<String> {
     // Six digits, without what rounding left behind them.
     let said = format!("{value:.5e}").parse().unwrap_or(value);
-    (value < 0.0).then(|| format!("`{name}` is {said}, and no arm has a negative one"))
+    (value < 0.0).then(|| format!("`{name}` is {said}, but cannot be negative"))
 }

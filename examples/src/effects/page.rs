@@ -160,11 +160,11 @@ fn confusions(effect: &EffectDefinition) -> String {
         let why = if one.name == effect.name {
             capital(&confusion.why)
         } else {
-            format!("Of `{}`: {}", one.name, confusion.why)
+            format!("For `{}`: {}", one.name, confusion.why)
         };
         write!(
             text,
-            "\n### [`{0}`]({0}.md)\n\n{why}\nParted by {1}\n",
+            "\n### [`{0}`]({0}.md)\n\n{why}\nDistinguished by {1}\n",
             other.name, confusion.parted_by,
         )
         .expect("a string takes all");
@@ -180,7 +180,7 @@ fn command(pair: &Parting) -> String {
         Err(why) => format!("\n{why}\n"),
         Ok(command) => {
             let values = if pair.needs_values() {
-                "\nThe motion depends on the arm's values: give standard parameters that the spec has not, `--parameters values.json`.\n"
+                "\nThe motion depends on the arm's values: give standard parameters that the spec lacks, `--parameters values.json`.\n"
             } else {
                 ""
             };

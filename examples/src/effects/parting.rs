@@ -88,9 +88,9 @@ fn not_designed(effect: &EffectDefinition) -> Option<&'static str> {
     let is_time = |leaf: &EffectLeaf| matches!(leaf, EffectLeaf::Time | EffectLeaf::Input(_));
     let has = |wanted: fn(&Act) -> bool| effect.acts.iter().any(wanted);
     if reads(effect, &is_time) {
-        Some("it follows from more than the motion")
+        Some("it depends on more than the motion")
     } else if effect.moves_links() {
-        Some("it moves links along the motion")
+        Some("it displaces links")
     } else if has(|act| matches!(act, Act::Delay { .. })) {
         Some("it shifts torques in time")
     } else if effect.reads_measured_torque() {

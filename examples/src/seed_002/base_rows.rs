@@ -8,7 +8,7 @@ use crate::paper::Row;
 /// What a check finds first, as far as its first number.
 fn shortened(check: &Check) -> String {
     let first = check.findings.first().map_or("", String::as_str);
-    let first = first.trim_start_matches("torques do not tell ");
+    let first = first.trim_start_matches("torques do not determine ");
     let parts: Vec<&str> = first.split(", ").collect();
     let more = if parts.len() > 1 { ", .." } else { "" };
     format!("{}{more}", parts[0])
@@ -55,7 +55,7 @@ pub(super) fn rows(results: &Results) -> Vec<Row> {
             "the matrix that regroups (15): base parameters that are made with it, asked by `audit`",
             "k = R2 R1^-1, W2 = k W1",
             format!(
-                "R2 has {} columns and R1^-1 {} rows; in that order there is R2^T R1^-1 alone, with which torques do not tell {} of {sums} \
+                "R2 has {} columns and R1^-1 {} rows; in that order there is R2^T R1^-1 alone, with which torques do not determine {} of {sums} \
                  sums: {}; with R1^-1 R2 {}, and with W2 = W1 k {:.0e} of W2 is left",
                 base.printed[0],
                 base.printed[1],
@@ -75,7 +75,7 @@ pub(super) fn rows(results: &Results) -> Vec<Row> {
             "k of normalized columns, used on measured ones (15): base parameters that are made with it, asked by `audit`",
             "the same k",
             format!(
-                "torques do not tell {} of {sums} sums: {}; with lengths put back {}; {:.2} of W2 is left, and {:.0e} with lengths",
+                "torques do not determine {} of {sums} sums: {}; with lengths put back {}; {:.2} of W2 is left, and {:.0e} with lengths",
                 asked.of_unit.findings.len(),
                 shortened(&asked.of_unit),
                 asked.of_measured.findings.len(),

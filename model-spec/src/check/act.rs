@@ -31,7 +31,7 @@ fn check_once(effect: &Effect, errors: &mut Errors) {
     for act in &effect.acts {
         let same = |other: &&&ast::Act| other.kind == act.kind && other.of == act.of;
         if let Some(first) = seen.iter().find(same) {
-            let title = format!("`{}` is there twice", left_hand_side(act));
+            let title = format!("`{}` is defined twice", left_hand_side(act));
             errors.push(
                 Diagnostic::new(act.keyword.span(), title, "second")
                     .also(first.keyword.span(), "first")

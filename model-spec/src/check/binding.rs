@@ -128,7 +128,7 @@ fn cycle(parts: &[Part<'_>], waits_for: &[Vec<usize>], done: &[bool]) -> Diagnos
         format!("`{}` is defined by itself", parts[path[0]].name()),
         names.join(" needs "),
     )
-    .help("write one of them without the other; what remembers its past is a `state`")
+    .help("write one without the other; use a `state` for a memory of the past")
 }
 
 /// Every name in an expression; `dot(z)` is one.

@@ -67,7 +67,7 @@ pub(super) fn check_number<'a>(
                 format!("the robot has more than {most} {what}"),
                 "one too many",
             )
-            .help("describe the arms of a machine with several of them one by one"),
+            .help("describe each arm of a machine with several arms separately"),
         );
     }
 }
@@ -210,10 +210,12 @@ fn positive(value: &Value, dimension: Dimension) -> Result<f64, Diagnostic> {
     if limit > 0.0 {
         return Ok(limit);
     }
-    Err(
-        Diagnostic::new(value.span(), "a limit is positive", format!("is {limit}"))
-            .help("write the largest magnitude, or leave the limit away"),
+    Err(Diagnostic::new(
+        value.span(),
+        "a limit must be positive",
+        format!("is {limit}"),
     )
+    .help("write the largest magnitude, or remove the limit"))
 }
 
 /// An `actuator_gain`; 1 without a unit where there is none.
@@ -237,7 +239,7 @@ pub(super) fn check_gain(settings: &Settings, kind: JointKind, errors: &mut Erro
             return Err(Diagnostic::new(
                 v.span(),
                 "an actuator gain of zero",
-                "the log would tell nothing",
+                "torques would be zero",
             )
             .help("write the joint torque per unit of the logged channel; 1 where the log holds torques"));
         }

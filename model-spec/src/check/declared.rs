@@ -174,10 +174,10 @@ fn check_has_links(
     }
     let name = &declared.name;
     let title =
-        format!("effect `{name}` is about links or gravity, and the robot says its energies");
+        format!("effect `{name}` needs links or gravity, but the robot is defined by its energies");
     errors.push(
         Diagnostic::new(name.span(), title, "for chains only")
-            .help("write it into `kinetic` and `potential`, with parameters of its own"),
+            .help("add it to `kinetic` and `potential`, with its own parameters"),
     );
 }
 

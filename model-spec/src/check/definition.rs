@@ -203,7 +203,7 @@ fn check_inputs(effect: &Effect, errors: &mut Errors) -> Vec<(String, Option<usi
             errors.push(
                 Diagnostic::new(
                     input.name.span(),
-                    format!("input `{}` is there twice", input.name),
+                    format!("input `{}` is declared twice", input.name),
                     "second",
                 )
                 .help("delete it"),

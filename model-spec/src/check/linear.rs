@@ -75,9 +75,9 @@ impl Degrees {
             Diagnostic::new(
                 rate.value.span,
                 format!("`{}` depends on a linear parameter", rate_name(&rate.of)),
-                "the state would change with what is solved for",
+                "the state would depend on an identified parameter",
             )
-            .help("scale the state so that the linear parameter stands in the torque, or make it a shape parameter"),
+            .help("scale the state so that the linear parameter is in the torque, or make it a shape parameter"),
         );
     }
 
@@ -154,7 +154,7 @@ fn constant_term(term: &Expr, what: &str) -> Diagnostic {
     Diagnostic::new(
         term.span,
         format!("{what} has no linear parameter"),
-        "nothing to solve for here",
+        "nothing to identify here",
     )
     .help("multiply the term by a linear parameter, or move it into the terms that have one")
 }

@@ -60,8 +60,7 @@ fn check_link(link: &ast::Link, errors: &mut Errors) -> Option<Inertial> {
                 "incomplete",
             )
             .help(
-                "write `mass = ..; com = [x, y, z]; inertia = [ixx, ixy, ixz, iyy, iyz, izz];`, or leave the link \
-                 away: it is identified then",
+                "write `mass = ..; com = [x, y, z]; inertia = [ixx, ixy, ixz, iyy, iyz, izz];`, or remove the link: it is then identified",
             ),
         );
     }
@@ -114,7 +113,7 @@ fn check_mass(value: &Value) -> Result<f64, Diagnostic> {
     }
     Err(Diagnostic::new(
         value.span(),
-        "a mass is not negative",
+        "a mass must not be negative",
         format!("is {mass} kg"),
     )
     .help("write zero or more"))
@@ -133,7 +132,7 @@ fn check_inertia(value: &Value) -> Result<[f64; 6], Diagnostic> {
         None => Ok(inertia),
         Some((name, moment)) => Err(Diagnostic::new(
             value.span(),
-            "a moment of inertia is not negative",
+            "a moment of inertia must not be negative",
             format!("`{name}` is {moment} kg m^2"),
         )
         .help("the order is [ixx, ixy, ixz, iyy, iyz, izz], about the center of mass")),

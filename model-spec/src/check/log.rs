@@ -197,7 +197,7 @@ impl Other {
 
 /// The one topic of bags, which is no column and has no unit.
 fn topic(channel: &LogChannel) -> Result<String, Diagnostic> {
-    const HELP: &str = "write it as the bag has it, such as `topic = \"/joint_states\";`";
+    const HELP: &str = "write its name in the bag, such as `topic = \"/joint_states\";`";
     let [column] = channel.columns.as_slice() else {
         let span = channel.span;
         return Err(Diagnostic::new(span, "a log has one topic", "several").help(HELP));
@@ -223,11 +223,11 @@ fn check_column_name(
     if name.is_empty() {
         errors.push(
             Diagnostic::new(span, "a column without a name", "empty")
-                .help("write its name as the log's header has it"),
+                .help("write its name as in the log's header"),
         );
     } else if let Some(first) = names.get(&name) {
         let error = Diagnostic::new(span, format!("column `{name}` is two channels"), "second");
-        let help = "give each channel a column of its own";
+        let help = "give each channel its own column";
         errors.push(first.beside(error, "first", help));
     } else {
         names.insert(name, Other::Here(span));
@@ -300,7 +300,7 @@ fn check_count(channel: &LogChannel, kind: &Channel, joints: usize, errors: &mut
             Channel::Time | Channel::Input(_) => {
                 format!("write one column, as in `{} = \"name\"`", channel.key)
             }
-            _ => "write one column a joint, in the order of the joints, with commas between them"
+            _ => "write one column per joint, in the order of the joints, separated by commas"
                 .to_owned(),
         }),
     );
@@ -318,9 +318,9 @@ fn worth(column: &ast::LogColumn, dimension: Option<Dimension>) -> Result<LogCol
         Some(written) if unit.abs() == 0.0 => Err(Diagnostic::new(
             written.span,
             "a unit of zero",
-            "the column would tell nothing",
+            "the column would be all zeros",
         )
-        .help("write what a one in the column is worth, such as `deg` or `360 deg/4096`")),
+        .help("write the value of 1 in the column, such as `deg` or `360 deg/4096`")),
         _ => Ok(LogColumn {
             name: column.name.value().trim().to_owned(),
             unit,

@@ -261,7 +261,7 @@ fn check_convention(robot: &Robot, settings: &Settings, errors: &mut Errors) -> 
         errors.push(
             Diagnostic::new(
                 robot.name.span(),
-                "the robot does not say how its frames are written",
+                "the robot does not define its frame convention",
                 "no `convention`",
             )
             .help(
@@ -288,8 +288,8 @@ fn check_convention(robot: &Robot, settings: &Settings, errors: &mut Errors) -> 
 fn check_gravity(robot: &Robot, settings: &Settings, errors: &mut Errors) -> Option<[f64; 3]> {
     let Some(value) = settings.get("gravity") else {
         errors.push(
-            Diagnostic::new(robot.name.span(), "the robot does not say where gravity points", "no `gravity`").help(
-                "write `gravity = [0, 0, -9.81];` (m/s^2, in the base frame; zeros where the motion is horizontal)",
+            Diagnostic::new(robot.name.span(), "the robot does not define gravity", "no `gravity`").help(
+                "write `gravity = [0, 0, -9.81];` (m/s^2, in the base frame; zeros for horizontal motion)",
             ),
         );
         return None;
@@ -318,7 +318,7 @@ fn check_unique<'a>(names: impl IntoIterator<Item = &'a Ident>, what: &str, erro
             errors.push(
                 Diagnostic::new(
                     name.span(),
-                    format!("{what} `{name}` is there twice"),
+                    format!("{what} `{name}` is defined twice"),
                     "second",
                 )
                 .also(*first, "first")

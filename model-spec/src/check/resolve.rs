@@ -13,8 +13,7 @@ use crate::suggest;
 use crate::transform::{LARGEST, LARGEST_EXPONENT};
 
 /// What to do about a value that cannot be computed with.
-pub(super) const NOT_COMPUTABLE: &str = "divide by no zero, take no root of a negative number, stay below 1e30, and \
-                                         write exponents of at most 60";
+pub(super) const NOT_COMPUTABLE: &str = "do not divide by zero or take roots of negative numbers, stay below 1e30, and write exponents up to 60";
 
 /// Whether what is known of the value without any leaf can be computed with.
 fn is_computable(value: &EffectExpr) -> bool {
@@ -50,7 +49,7 @@ impl Scope {
             Diagnostic::new(
                 expr.span,
                 "this is not a finite number, or too large to compute with",
-                "whatever the arm does",
+                "for every motion",
             )
             .help(NOT_COMPUTABLE),
         );
@@ -66,7 +65,7 @@ impl Scope {
                     *value,
                     unit,
                     kind,
-                    "for a quantity write its value in SI units, which needs no unit",
+                    "for a quantity write its value in SI units, without a unit",
                 ));
                 None
             }

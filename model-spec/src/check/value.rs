@@ -175,7 +175,7 @@ pub(super) fn constant(expr: &Expr) -> Checked<Quantity> {
         "the value is not a finite number",
         format!("comes out as {}", quantity.value),
     )
-    .help("divide by no zero, and stay below 1e30"))
+    .help("do not divide by zero, and stay below 1e30"))
 }
 
 fn evaluate(expr: &Expr) -> Checked<Quantity> {
@@ -200,10 +200,10 @@ fn evaluate(expr: &Expr) -> Checked<Quantity> {
         ExprKind::Binary(op, left, right) => binary(*op, evaluate(left)?, evaluate(right)?, expr),
         ExprKind::Choice(..) => Err(Diagnostic::new(
             expr.span,
-            "a choice has no place in a number",
-            "belongs into an effect's equations",
+            "an `if` is not allowed in a number",
+            "belongs in an effect's equations",
         )
-        .help("write the value that holds")),
+        .help("write the value itself")),
     }
 }
 
@@ -253,7 +253,7 @@ pub(super) fn unit_or_name(
     };
     Diagnostic::new(
         expr.span,
-        format!("`{name}` is a name here, and behind a number it would be a unit"),
+        format!("`{name}` is a name here, but after a number it would be a unit"),
         format!("a unit, or the {meant}?"),
     )
     .help(format!(
@@ -325,7 +325,7 @@ fn binary(op: BinaryOp, left: Quantity, right: Quantity, expr: &Expr) -> Checked
             (Some(l), Some(r)) if l != r => {
                 return Err(Diagnostic::new(
                     expr.span,
-                    format!("{} and {} do not add", l.describe(), r.describe()),
+                    format!("{} and {} cannot be added", l.describe(), r.describe()),
                     "different dimensions",
                 )
                 .help("write both in units of one kind"));
@@ -340,10 +340,13 @@ fn binary(op: BinaryOp, left: Quantity, right: Quantity, expr: &Expr) -> Checked
             (_, Some(found)) => {
                 return Err(Diagnostic::new(
                     expr.span,
-                    format!("an exponent is a plain number, found {}", found.describe()),
+                    format!(
+                        "an exponent must be a plain number, found {}",
+                        found.describe()
+                    ),
                     "the exponent has a unit",
                 )
-                .help("take the unit away from the exponent"));
+                .help("remove the unit from the exponent"));
             }
         },
     };
@@ -367,9 +370,9 @@ fn small_integer(exponent: f64, expr: &Expr) -> Checked<i32> {
     found.ok_or_else(|| {
         Diagnostic::new(
             expr.span,
-            "a quantity with a unit has a small whole exponent",
+            "a quantity with a unit needs a small whole exponent",
             format!("exponent {exponent}"),
         )
-        .help("take the power of the number, and write the unit behind the result")
+        .help("compute the power of the number, and write the unit after the result")
     })
 }

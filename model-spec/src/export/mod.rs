@@ -69,7 +69,7 @@ pub struct Spring {
 pub enum ExportError {
     /// It has no links.
     #[error(
-        "`{0}` says its energies, and other formats want links and joints: describe it as a chain"
+        "`{0}` is defined by its energies, but other formats need links and joints: describe it as a chain"
     )]
     NoChain(String),
     /// The original is no URDF.
@@ -77,14 +77,14 @@ pub enum ExportError {
     Parse(UrdfFault),
     /// The original is of another arm.
     #[error(
-        "the URDF has no chain of the joints {}; give the URDF that the spec was imported from, or leave `--urdf` out",
+        "the URDF has no chain of the joints {}; give the URDF that the spec was imported from, or remove `--urdf`",
         crate::suggest::list(.0.iter().map(String::as_str))
     )]
     OtherJoints(Vec<String>),
     /// The original has its frames elsewhere.
     #[error(
-        "joint `{joint}` {differs} in the URDF, so the inertials of the spec are in other frames; give the URDF that the spec was \
-         imported from, or leave `--urdf` out"
+        "joint `{joint}` {differs} in the URDF, so the inertials of the spec are in other frames; give the URDF that the spec was imported \
+         from, or remove `--urdf`"
     )]
     OtherFrames {
         /// The joint.

@@ -7,9 +7,9 @@ const IDENTIFIABLE: &str = "Identifiable ";
 /// How a paragraph begins that says what is taken for an effect.
 const CONFUSED: &str = "Confused with ";
 /// How the last sentence of such a paragraph begins.
-const PARTED: &str = "Parted by ";
+const PARTED: &str = "Distinguished by ";
 
-/// What an effect may be taken for: ``Confused with `a`, `b`: why. Parted by what.``
+/// What an effect may be taken for: ``Confused with `a`, `b`: why. Distinguished by what.``
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Confusion {

@@ -87,7 +87,7 @@ fn kind(input: ParseStream, keyword: Span, kind: &mut Option<Ident>) -> syn::Res
         return Err(syn_error(
             keyword,
             "an effect is of one kind",
-            Some("keep one `kind`, under which reports and JSON have the effect"),
+            Some("keep one `kind`, the effect's name in reports and JSON"),
         ));
     }
     *kind = Some(name);
@@ -106,7 +106,7 @@ fn linear(input: ParseStream, doc: &str, parameters: &mut Vec<Linear>) -> syn::R
                 return Err(syn_error(
                     bound.span(),
                     "the only bound of a linear parameter is `>= 0`",
-                    Some("give the parameter the sign in which it is not negative"),
+                    Some("choose the parameter's sign so that it is not negative"),
                 ));
             }
         }

@@ -104,7 +104,7 @@ fn equals(input: ParseStream, name: &syn::Ident) -> syn::Result<()> {
     }
     Err(crate::diagnostic::syn_error(
         input.span(),
-        &format!("expected `=` behind `{name}`{}", super::found(input)),
+        &format!("expected `=` after `{name}`{}", super::found(input)),
         Some(&format!("write `{name} = ..`")),
     ))
 }

@@ -30,7 +30,7 @@ pub(super) fn alone(input: ParseStream) -> syn::Result<Expr> {
     }
     Err(syn_error(
         input.span(),
-        &format!("expected nothing behind this value{}", found(input)),
+        &format!("expected nothing after this value{}", found(input)),
         Some("write one number, and join units with `*` or `/`, as in `360 deg/4096` or `N*m`"),
     ))
 }
@@ -68,7 +68,7 @@ impl Climber {
                 if input.peek(Token![*]) {
                     return Err(syn_error(
                         input.span(),
-                        "`**` is no operator",
+                        "`**` is not an operator",
                         Some("write powers with `^`, as in `l^2`"),
                     ));
                 }
@@ -278,7 +278,7 @@ fn number(input: ParseStream) -> syn::Result<Expr> {
             };
             let help = match unquoted {
                 Some(word) => format!("write `{word}`, without quotes, if that word is meant"),
-                None => "text has no place here".to_owned(),
+                None => "text is not allowed here".to_owned(),
             };
             return Err(syn_error(
                 syn::spanned::Spanned::span(other),

@@ -51,7 +51,7 @@ impl Parse for LogColumn {
                 input.span(),
                 &format!("expected the name of a column in quotes{}", found(input)),
                 Some(
-                    "write it as the log's header has it, such as `q = \"pos 1\": deg, \"pos 2\": deg;`",
+                    "write it as in the log's header, such as `q = \"pos 1\": deg, \"pos 2\": deg;`",
                 ),
             ));
         }

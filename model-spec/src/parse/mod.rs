@@ -85,7 +85,7 @@ fn check_tokens(tokens: &TokenStream) -> syn::Result<()> {
                     return Err(syn_error(
                         group.span_open(),
                         &format!("brackets are nested more than {MAX_NESTING} deep"),
-                        Some("take some of them away; no equation needs so many"),
+                        Some("remove some of them; no equation needs so many"),
                     ));
                 }
                 open.push(group.stream().into_iter());
@@ -272,7 +272,7 @@ fn doc_comment(input: ParseStream) -> syn::Result<String> {
     if input.peek(Token![#]) && !input.peek2(syn::token::Bracket) {
         return Err(syn_error(
             input.span(),
-            "`#` begins no statement",
+            "`#` does not begin a statement",
             Some("begin comments with `//`"),
         ));
     }

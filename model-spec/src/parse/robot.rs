@@ -52,7 +52,7 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
                     keyword.span(),
                     "an effect is declared inside a robot",
                     Some(
-                        "write it behind the robot's last `}`, and in the robot on what it acts: `effects { name() on joint; }`",
+                        "write it after the robot's last `}`, and declare where it acts in the robot: `effects { name() on joint; }`",
                     ),
                 ));
             }
@@ -61,7 +61,9 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
                     keyword.span(),
                     &format!("a robot has no `{keyword}`"),
                     Some(
-                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }`, `effects { .. }` or `log { .. }`; or say its energies: `coordinates ..;`, `parameters ..;`, `constants ..;`, `let ..;`, `kinetic = ..;`, `potential = ..;`",
+                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }`, `effects { .. }` or `log \
+                         { .. }`; or define its energies: `coordinates ..;`, `parameters ..;`, `constants ..;`, `let ..;`, `kinetic = ..;`, \
+                         `potential = ..;`",
                     ),
                 ));
             }
@@ -76,7 +78,7 @@ fn joint(input: ParseStream, errors: &mut Sink) -> syn::Result<Joint> {
     if !input.peek(Token![:]) {
         return Err(crate::diagnostic::syn_error(
             input.span(),
-            &format!("joint `{name}` does not say what it is"),
+            &format!("joint `{name}` has no kind"),
             Some(&format!(
                 "write `joint {name}: revolute {{ .. }}` or `joint {name}: prismatic {{ .. }}`"
             )),
@@ -160,7 +162,7 @@ impl Parse for Setting {
         if !input.peek(Token![=]) {
             return Err(crate::diagnostic::syn_error(
                 input.span(),
-                &format!("expected `=` behind `{key}`{}", super::found(input)),
+                &format!("expected `=` after `{key}`{}", super::found(input)),
                 Some(&format!("write `{key} = value;`")),
             ));
         }

@@ -116,7 +116,7 @@ fn check_frames(chain: &Chain, model: &Model) -> Result<(), ExportError> {
         };
         let slides = there.joint.joint_type == JointType::Prismatic;
         if slides != (joint.kind == JointKind::Prismatic) {
-            return refuse("moves in another way");
+            return refuse("has another type");
         }
         let placement = &link.placement;
         let axis = there.joint.axis.xyz.0;
@@ -173,7 +173,7 @@ fn shares<'a>(
     let heavy = heavy.filter(|(_, body)| !body.is_nothing());
     let gone: Vec<&str> = heavy.map(|((link, _), _)| link.name.as_str()).collect();
     notes.push(format!(
-        "link `{}` takes the inertials of {}, which are heavier than what was identified of all together",
+        "link `{}` carries the inertials of {}, which are heavier than the identified sum of all",
         link.name,
         crate::suggest::list(gone.iter().copied())
     ));
@@ -215,7 +215,7 @@ fn undeclared(joint: &ChainJoint, numbers: &JointNumbers) -> Vec<String> {
         .filter(|(_, old, new)| *old != 0.0 && new.is_none());
     kept.map(|(what, old, _)| {
         format!(
-            "joint `{}` keeps its {what} of {old}: the spec declares no effect that is one",
+            "joint `{}` keeps its {what} of {old}: the spec declares no such effect",
             joint.joint.name
         )
     })

@@ -92,7 +92,7 @@ fn numbers_that_are_there_already_change_nothing_but_the_comment_at_the_top() {
     assert_eq!(back.urdf, ORIGINAL.replacen("    <material", comment, 1));
     assert_eq!(
         back.notes,
-        ["joint `shoulder` keeps its friction of 0.5: the spec declares no effect that is one"]
+        ["joint `shoulder` keeps its friction of 0.5: the spec declares no such effect"]
     );
     // Written again, the comment is renewed.
     let again = written(&back.urdf, |_| {});
@@ -137,7 +137,7 @@ fn a_link_takes_what_is_held_against_it_leaves() {
     });
     assert_eq!(
         light.notes[0],
-        "link `upper-arm` takes the inertials of `plate`, which are heavier than what was identified of all together"
+        "link `upper-arm` carries the inertials of `plate`, which are heavier than the identified sum of all"
     );
     let read = urdf_rs::read_from_string(&light.urdf).expect("a URDF");
     let mass = |k: usize| read.links[k].inertial.mass.value;
@@ -189,8 +189,7 @@ fn urdfs_of_other_arms_are_refused() {
     let joints = refused("joint name=\"wrist\"", "joint name=\"elbow\"");
     assert_eq!(
         joints,
-        "the URDF has no chain of the joints `shoulder`, `wrist`; give the URDF that the spec was imported from, or leave `--urdf` \
-         out"
+        "the URDF has no chain of the joints `shoulder`, `wrist`; give the URDF that the spec was imported from, or remove `--urdf`"
     );
     for (from, to, why) in [
         (
@@ -206,7 +205,7 @@ fn urdfs_of_other_arms_are_refused() {
         (
             "continuous",
             "prismatic",
-            "joint `wrist` moves in another way in the URDF",
+            "joint `wrist` has another type in the URDF",
         ),
         ("</robot>", "", "the URDF does not parse: line"),
     ] {

@@ -163,7 +163,7 @@ fn what_is_assumed_changed_or_impossible_is_told() {
     assert_eq!(
         imported.warnings,
         [
-            "link `fore` has an inertia that no body has: about the center of mass each principal moment is positive and at most \
+            "link `fore` has a physically impossible inertia: about the center of mass each principal moment must be positive and at most \
              the sum of the other two",
             "names that are no words of the language, or there twice, are changed: joint `joint-1` is `joint_1`",
         ]

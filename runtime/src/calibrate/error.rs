@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum CalibrateError {
     /// Channels of different lengths.
-    #[error("the channels differ in length; give each one value a sample")]
+    #[error("the channels differ in length; give each one value per sample")]
     Lengths,
     /// NaN or infinity.
     #[error("a value is not finite; remove or repair the sample")]
@@ -22,7 +22,7 @@ pub enum CalibrateError {
         least: usize,
     },
     /// A channel that does not vary.
-    #[error("the {what} is the same in all samples, so nothing follows from it; {mend}")]
+    #[error("the {what} is constant, so it determines nothing; {mend}")]
     Stands {
         /// What it is.
         what: &'static str,
@@ -31,13 +31,12 @@ pub enum CalibrateError {
     },
     /// Current and velocity in proportion.
     #[error(
-        "current and velocity are in proportion, so resistance and back-EMF are not told apart; let the motor speed up and slow down, \
-         or load it"
+        "current and velocity are proportional, so resistance and back-EMF cannot be separated; let the motor speed up and slow down, or load it"
     )]
     NotApart,
     /// Time that does not rise.
     #[error(
-        "time does not rise from the sample before; sort the samples, or remove those that stand there twice"
+        "time does not increase from the sample before; sort the samples, or remove duplicates"
     )]
     TimeOrder {
         /// The later sample.
@@ -53,15 +52,14 @@ pub enum CalibrateError {
     },
     /// No switch of the voltage.
     #[error(
-        "no switch of the voltage is found: with one constant, friction that follows the velocity looks like back-EMF; log a square \
-         wave, or the voltage"
+        "the voltage never switches: with one constant voltage, viscous friction looks like back-EMF; log a square wave, or the voltage"
     )]
     NoSwitch,
     /// A voltage that is not constant in pieces.
     #[error(
-        "no factor makes `u + k w` constant in pieces: at the best one, {back_emf:.4}, constants hold for {held:.0} % of the samples \
-         (50 wanted) and explain {explained:.1} % of the variance there (90 wanted), and jumps are {by_jumps:.0} % of all change \
-         (75 wanted); log the voltage, or command a square wave whose levels last {shortest} samples and more"
+        "no factor makes `u + k w` piecewise constant: the best one, {back_emf:.4}, has constants in {held:.0} % of the samples (needs 50), \
+         which explain {explained:.1} % of the variance there (needs 90), and jumps are {by_jumps:.0} % of all change (needs 75); log the \
+         voltage, or command a square wave whose levels last at least {shortest} samples"
     )]
     NotInPieces {
         /// The best factor.

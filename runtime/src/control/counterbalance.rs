@@ -105,7 +105,7 @@ fn needed(moment: f64, gravity: f64, factor: f64) -> Result<f64, ControlError> {
     let what = (
         "lever or mass of a counterweight",
         "",
-        "more gravity, or more of the other of the two",
+        "more gravity, or a larger value of the other one",
     );
     number(needed, what, needed.is_finite())?;
     Ok(needed)

@@ -95,7 +95,7 @@ impl fmt::Display for ControlError {
                 upper,
             } => write!(
                 f,
-                "positions of joint `{joint}` from {lower} to {upper} are none; give the lower end first"
+                "the position range of joint `{joint}` from {lower} to {upper} is empty; give the lower end first"
             ),
             Self::Outside {
                 parameter,
@@ -108,8 +108,8 @@ impl fmt::Display for ControlError {
             ),
             Self::NegativeWeight { moment } => write!(
                 f,
-                "a moment of {moment} N m has no counterweight on this side of the axis; put it on the other one, and give the moment with \
-                 the other sign"
+                "no counterweight on this side of the axis balances a moment of {moment} N m; put it on the other side, and give the moment \
+                 with the opposite sign"
             ),
         }
     }

@@ -143,7 +143,7 @@ impl<const D: usize> Safety<D> {
     /// let refused = control.with_safety(Safety::new().position([1.0, -2.0], [-1.0, 2.0])).unwrap_err();
     /// assert_eq!(
     ///     refused.to_string(),
-    ///     "positions of joint `shoulder` from 1 to -1 are none; give the lower end first"
+    ///     "the position range of joint `shoulder` from 1 to -1 is empty; give the lower end first"
     /// );
     /// # Ok::<(), robot_model::control::ControlError>(())
     /// ```

@@ -116,7 +116,7 @@ impl Request {
             .iter()
             .any(|effect| effect.iter().all(|&(_, size)| size == 0.0))
         {
-            return refused("one has no size");
+            return refused("one size is missing");
         }
         let columns = self.regressor.columns.len();
         if first
@@ -124,7 +124,7 @@ impl Request {
             .chain(second)
             .any(|&(c, size)| c >= columns || !size.is_finite())
         {
-            return refused("a column or a size is none");
+            return refused("a column or a size is missing");
         }
         if first.iter().any(|a| second.iter().any(|b| a.0 == b.0)) {
             return refused("they have a column in common");

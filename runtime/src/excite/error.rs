@@ -6,7 +6,8 @@
 pub enum ExciteError {
     /// A joint that cannot move.
     #[error(
-        "joint `{joint}` has no range: its position is limited to {low} .. {high}; give it one, or take the joint out of the motion with a range around its pose"
+        "joint `{joint}` has no range: its position is limited to {low} .. {high}; widen the range, or keep the joint still with a small \
+         range around its pose"
     )]
     NoRange {
         /// The joint.
@@ -18,7 +19,7 @@ pub enum ExciteError {
     },
     /// A limit that is not above zero.
     #[error(
-        "joint `{joint}` has a {what} limit of {limit}, which leaves no motion; limits are positive numbers"
+        "joint `{joint}` has a {what} limit of {limit}, which allows no motion; write a positive number"
     )]
     NoRoom {
         /// The joint.
@@ -30,14 +31,14 @@ pub enum ExciteError {
     },
     /// A joint whose velocity has no limit.
     #[error(
-        "joint `{joint}` has no velocity limit, so faster is always better; write `velocity = ..` into its spec"
+        "joint `{joint}` has no velocity limit, so the best motion would be infinitely fast; write `velocity = ..` into its spec"
     )]
     Unlimited {
         /// The joint.
         joint: String,
     },
     /// A number that has to be positive.
-    #[error("the {what} is {value}; it has to be a positive number")]
+    #[error("the {what} is {value}; it must be a positive number")]
     NotPositive {
         /// Which one.
         what: &'static str,
@@ -58,7 +59,7 @@ pub enum ExciteError {
     },
     /// Nothing that a motion could tell.
     #[error(
-        "no column of the regressor follows from the motion: nothing to design for; declare a link or an effect with unknown parameters"
+        "no column of the regressor depends on the motion: there is nothing to design; declare a link or an effect with unknown parameters"
     )]
     NoColumns,
     /// Numbers for another arm.
@@ -72,9 +73,7 @@ pub enum ExciteError {
         expected: usize,
     },
     /// Two effects that are none, or not two.
-    #[error(
-        "two effects are told apart by columns of their own with sizes that are not all zero: {0}"
-    )]
+    #[error("two effects need columns of their own, with sizes that are not all zero: {0}")]
     Rivals(&'static str),
     /// A pose that is none, or beyond the limits.
     #[error("the pose has joint `{joint}` at {position}, which is not within {low} .. {high}")]
@@ -89,7 +88,7 @@ pub enum ExciteError {
         high: f64,
     },
     /// Noise that is no deviation.
-    #[error("the torque noise of joint `{joint}` is {noise}; a standard deviation is positive")]
+    #[error("the torque noise of joint `{joint}` is {noise}; write a positive standard deviation")]
     Noise {
         /// The joint.
         joint: String,
@@ -106,7 +105,7 @@ pub enum ExciteError {
     },
     /// No motion inside the limits was found.
     #[error(
-        "no motion keeps the limits: {poses} so, however small the motion; the last one misses the limit on the {what} by {by}"
+        "no motion keeps the limits: {poses}, however small the motion; the last one exceeds the limit on the {what} by {by}"
     )]
     Infeasible {
         /// Poses that were tried.
@@ -118,7 +117,8 @@ pub enum ExciteError {
     },
     /// Parameters that no motion tells which was found.
     #[error(
-        "no motion that was found within these limits tells {0}: fix them in the spec, widen the limits of the joints that move them, try more starts or, where they act with the load, give the arm's parameters"
+        "no motion found within these limits separates {0}: fix them in the spec, widen the limits of the joints that excite them, try more \
+         starts, or give the arm's parameters if the effects depend on the load"
     )]
     NotExcited(String),
 }

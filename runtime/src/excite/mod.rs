@@ -166,7 +166,7 @@ impl Request {
             let is_imitated =
                 |distances: [f64; 2]| distances.iter().any(|d| *d < MOST_CONDITION.powi(-2));
             let what = if quality.shares.is_some_and(is_imitated) {
-                "one of the two effects from what the other one and the arm's own parameters imitate"
+                "one effect from the other one together with the arm's parameters"
             } else {
                 "the parameters from each other"
             };

@@ -105,8 +105,8 @@ fn worst(request: &Request, problem: &Problem<'_>, z: &[f64]) -> ExciteError {
         }
     }
     let poses = match request.ends {
-        Ends::At(_) => "the pose that is given does not".to_owned(),
-        _ => format!("of {TRIES} random poses none does"),
+        Ends::At(_) => "the given pose does not".to_owned(),
+        _ => format!("none of {TRIES} random poses does"),
     };
     ExciteError::Infeasible { poses, what, by }
 }

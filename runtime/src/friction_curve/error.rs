@@ -8,7 +8,7 @@ use crate::signal::SignalError;
 pub enum FrictionError {
     /// No log has the joint at constant speed.
     #[error(
-        "joint {joint} nowhere moves at one constant speed for 0.3 s while all others stand; drive it so, at several speeds"
+        "joint {joint} never moves at a constant speed for 0.3 s while all others rest; drive it so, at several speeds"
     )]
     NoStretch {
         /// Name of the joint.
@@ -19,8 +19,8 @@ pub enum FrictionError {
     Signal(#[from] SignalError),
     /// The torque beside friction is nearly the same at all times of each speed.
     #[error(
-        "the rigid body's torque at joint {joint} cannot be told from its friction: of {columns} that move it {rank} can, over {travel:.3} rad or m \
-         of travel; move further, or give the arm's parameters with `--parameters`",
+        "the rigid body's torque at joint {joint} cannot be separated from friction: of {columns} that act on it only {rank} can, over \
+         {travel:.3} rad or m of travel; move further, or give the arm's parameters with `--parameters`",
         columns = counted(*.columns)
     )]
     NotSeparated {
@@ -35,8 +35,8 @@ pub enum FrictionError {
     },
     /// A constant torque beside friction, and no motion back.
     #[error(
-        "a constant torque at joint {joint}, as gravity on a rail or over a short way, cannot be told from friction in one direction; move \
-         further, or back at the same speeds too, or give the arm's parameters with `--parameters`"
+        "a constant torque at joint {joint}, such as gravity on a rail or over a short travel, cannot be separated from friction in one \
+         direction; move further, or also back at the same speeds, or give the arm's parameters with `--parameters`"
     )]
     Constant {
         /// Name of the joint.
@@ -44,7 +44,7 @@ pub enum FrictionError {
     },
     /// Too few speeds for a law.
     #[error(
-        "a law of friction takes {least} speeds, and there are {found}; drive the joint at more"
+        "a friction law needs {least} speeds, but there are {found}; drive the joint at more speeds"
     )]
     TooFewSpeeds {
         /// How many there are, both directions counted once.
@@ -54,7 +54,7 @@ pub enum FrictionError {
     },
     /// Speeds that do not tell the parameters of a law apart.
     #[error(
-        "the speeds do not tell Coulomb from viscous friction; drive the joint at speeds further apart"
+        "the speeds do not separate Coulomb from viscous friction; drive the joint at speeds further apart"
     )]
     SpeedsAlike,
     /// The joint moves from the start.
@@ -78,8 +78,8 @@ pub enum FrictionError {
     },
     /// Positions that do not follow the torque.
     #[error(
-        "{source_name}: the positions do not follow the torque before the joint slides: bristles stiffer than the encoder tells (its step is \
-         {step:.3e}), or a torque that rises too fast"
+        "{source_name}: the positions do not follow the torque before the joint slides: the bristles are too stiff for the encoder (its \
+         step is {step:.3e}), or the torque rises too fast"
     )]
     NoDeflection {
         /// Name of the log.
@@ -89,8 +89,8 @@ pub enum FrictionError {
     },
     /// Other joints stand elsewhere than while the curve was measured.
     #[error(
-        "{source_name}: joint {joint} stands elsewhere than while the curve was measured, so gravity is not known; put it there, or give the \
-         arm's parameters with `--parameters`"
+        "{source_name}: joint {joint} is at another position than when the curve was measured, so gravity is unknown; put it there, or give \
+         the arm's parameters with `--parameters`"
     )]
     OtherPose {
         /// Name of the log.

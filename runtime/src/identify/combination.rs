@@ -166,7 +166,7 @@ impl Estimate {
     /// // What a log without acceleration would leave:
     /// estimate.unexcited = vec!["link.izz".to_owned()];
     /// let error = estimate.separated().unwrap_err();
-    /// assert!(error.to_string().contains("nothing is told of `link.izz`"));
+    /// assert!(error.to_string().contains("the logs say nothing about `link.izz`"));
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
     pub fn separated(&self) -> Result<(), IdentifyError> {
@@ -180,7 +180,7 @@ impl Estimate {
         let (mixed, silent): (Vec<&String>, Vec<&String>) = self.unexcited.iter().partition(in_any);
         let mut why = Vec::new();
         if !silent.is_empty() {
-            why.push(format!("nothing is told of {}", list(&silent)));
+            why.push(format!("the logs say nothing about {}", list(&silent)));
         }
         if !mixed.is_empty() {
             let combinations: Vec<String> =
@@ -192,7 +192,7 @@ impl Estimate {
                 [" ", ", "]
             };
             why.push(format!(
-                "{} cannot be told from others, only{before}{}",
+                "{} cannot be separated from others, only{before}{}",
                 list(&mixed),
                 combinations.join(between)
             ));

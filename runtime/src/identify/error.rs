@@ -22,7 +22,7 @@ pub enum IdentifyError {
     },
     /// Speeds at which joints of a log creep are not one a joint.
     #[error(
-        "{source_name}: {found} speeds at which joints creep where they turn, for {arm} joints; give `with_turn_speeds` one a joint"
+        "{source_name}: {found} speeds at velocity reversals for {arm} joints; give `with_turn_speeds` one per joint"
     )]
     TurnSpeeds {
         /// Name of the log.
@@ -34,7 +34,7 @@ pub enum IdentifyError {
     },
     /// A log lacks a channel that a declared effect reads.
     #[error(
-        "{source_name}: the log has no column `{channel}`, which a declared effect of the spec reads; {}, or take the effect out of the spec",
+        "{source_name}: the log has no column `{channel}`, which a declared effect of the spec reads; {}, or remove the effect from the spec",
         way_to(channel)
     )]
     NoChannel {
@@ -57,15 +57,15 @@ pub enum IdentifyError {
     },
     /// The log excites none of the unknowns.
     #[error(
-        "the log excites none of the {unknowns} unknowns: no joint moves in it whose torque changes; log a motion, or, of an arm that swings \
-         free, identify by output error, which motion alone tells something"
+        "the log excites none of the {unknowns} unknowns: no joint moves with a changing torque; log a motion, or identify a freely \
+         swinging arm by output error"
     )]
     NothingExcited {
         /// Unknowns.
         unknowns: usize,
     },
     /// The logs do not tell all unknowns apart.
-    #[error("the logs do not tell all parameters apart (rank {rank} of {unknowns}): {why}")]
+    #[error("the logs do not determine all parameters (rank {rank} of {unknowns}): {why}")]
     NotSeparated {
         /// Numerical rank of the regressor.
         rank: usize,
@@ -75,9 +75,7 @@ pub enum IdentifyError {
         why: String,
     },
     /// Too few draws for an interval.
-    #[error(
-        "{draws} draws of a bootstrap tell no interval with 95 % of them; ask for {least} or more"
-    )]
+    #[error("{draws} bootstrap draws are too few for a 95 % interval; ask for {least} or more")]
     Draws {
         /// Draws that were asked for.
         draws: usize,
@@ -86,8 +84,8 @@ pub enum IdentifyError {
     },
     /// Draws of blocks that do not tell all.
     #[error(
-        "of {draws} draws of blocks only {made} tell all parameters apart: something is excited in a few places of the logs alone; give logs that \
-         do so again and again, or take the deviations that are there without a bootstrap"
+        "only {made} of {draws} draws of blocks determine all parameters: some are excited in only a few places of the logs; give logs that \
+         excite them repeatedly, or use the standard deviations without a bootstrap"
     )]
     FewDraws {
         /// Draws.
@@ -97,7 +95,7 @@ pub enum IdentifyError {
     },
     /// The link that would carry a payload is known.
     #[error(
-        "link {link} is fixed by the spec; declare its payload there in place of two kinds of logs: `payload on ..`"
+        "link {link} is fixed by the spec; declare its payload there instead of giving two kinds of logs: `payload on ..`"
     )]
     FixedLink {
         /// Its name.
@@ -105,30 +103,28 @@ pub enum IdentifyError {
     },
     /// No link by that name whose body is looked for.
     #[error(
-        "no such link can be told from its payload: links whose bodies are not fixed by the spec are {}; name one of these", if links.is_empty() { "none".to_owned() } else { links.join(", ") }
+        "this link cannot carry an identified payload: links not fixed by the spec are {}; name one of these", if links.is_empty() { "none".to_owned() } else { links.join(", ") }
     )]
     NoLink {
         /// Names of links that there are.
         links: Vec<String>,
     },
     /// A payload without mass.
-    #[error(
-        "a payload of {mass} kg tells no drive's gain; give the mass that a scale shows, more than 0"
-    )]
+    #[error("a payload of {mass} kg determines no gain; give its weighed mass, above 0")]
     PayloadMass {
         /// The mass, kg.
         mass: f64,
     },
     /// A search for gains that does not settle.
     #[error(
-        "the search for the drives' gains did not settle: logs with the payload hardly differ from those without; is it there in all of them, and \
-         heavy enough?"
+        "the search for the drives' gains did not converge: logs with the payload hardly differ from those without; do all of them have it, \
+         and is it heavy enough?"
     )]
     PayloadLost,
     /// No torque shows what is known of a payload.
     #[error(
-        "no drive's gain is told: what is known of the payload shows in no torque that parameters which are looked for could not make, too; give its \
-         center of mass, too, put it on a link behind other joints, or move joints that lift or swing it"
+        "no drive's gain is identified: unknown parameters can explain every torque of the payload; also give its center of mass, attach it \
+         to a link further out, or move joints that lift or swing it"
     )]
     PayloadHidden,
     /// Not one value for each open shape.
@@ -143,8 +139,8 @@ pub enum IdentifyError {
     },
     /// Logs too short to be cut into blocks.
     #[error(
-        "a bootstrap wants {blocks} blocks of {samples:.0} rows, over which errors are alike, and the logs have {rows} rows; give longer logs, \
-         or take the deviations that are there without it"
+        "a bootstrap needs {blocks} blocks of {samples:.0} rows, the correlation length of the errors, but the logs have {rows} rows; give \
+         longer logs, or use the standard deviations without it"
     )]
     FewBlocks {
         /// Least number of blocks.
@@ -156,39 +152,42 @@ pub enum IdentifyError {
     },
     /// Nothing says what bodies the unknowns are made of.
     #[error(
-        "a robot that says its energies has no links whose bodies could be possible; identify it by another method"
+        "a robot defined by its energies has no links that could be checked for physical bodies; use another method"
     )]
     NoBodies,
     /// The search for a possible arm did not come to an end.
     #[error(
-        "no possible arm was found near the logs: the search did not come to an end; give nominal values of the links (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or another method"
+        "no physically possible arm was found: the search did not converge; give nominal values of the links (`link name {{ mass = ..; com \
+         = ..; inertia = ..; }}`), or another method"
     )]
     NoEnd,
     /// The torque has no part in the direction that total least squares looks for.
     #[error(
-        "total least squares has no estimate here: the torque says nothing of the columns; identify by another method"
+        "total least squares has no estimate here: the torque does not depend on the columns; use another method"
     )]
     NoTotal,
     /// Columns that are no further apart than the errors that total least squares gives them.
     #[error(
-        "total least squares has no estimate here: it gives every column errors as large in proportion as those of the torque, and some columns \
-         differ by no more than that, as the constant one of an offset may from that of gravity; identify by another method, by `iv` where columns have errors"
+        "total least squares has no estimate here: it assumes that every column has relative errors as large as those of the torque, and \
+         some columns, such as an offset and gravity, differ by less; use another method, such as `iv` if columns have errors"
     )]
     TotalApart,
     /// The spec gives no nominal value.
     #[error(
-        "the spec gives no nominal value to go to; write those of CAD (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or identify by another method"
+        "the spec has no nominal values to use; write CAD values (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or use another method"
     )]
     NoNominal,
     /// A deviation of nominal values that is none.
-    #[error("nominal values that are off by {prior}: give a share above 0, such as 0.3")]
+    #[error(
+        "the standard deviation of nominal values is {prior}: give a share above 0, such as 0.3"
+    )]
     Prior {
         /// What was given.
         prior: f64,
     },
     /// Not one motion without noise for each log.
     #[error(
-        "{instruments} motions without noise for {logs} logs: give one for each log, in their order"
+        "{instruments} noise-free motions for {logs} logs: give one for each log, in their order"
     )]
     Instruments {
         /// Motions that were given.
@@ -198,7 +197,7 @@ pub enum IdentifyError {
     },
     /// A motion without noise that ends before the log.
     #[error(
-        "{source_name}: the motion without noise is {reference:.3} s long, the log {log:.3} s; give it over the whole log, period by period"
+        "{source_name}: the noise-free motion is {reference:.3} s long, the log {log:.3} s; give it over the whole log, period by period"
     )]
     ShortReference {
         /// Name of the log.
@@ -210,7 +209,7 @@ pub enum IdentifyError {
     },
     /// A motion without noise that lacks samples.
     #[error(
-        "{source_name}: the motion without noise has a hole from {from:.3} s to {to:.3} s, where nothing says how it moved; give all samples"
+        "{source_name}: the noise-free motion has a gap from {from:.3} s to {to:.3} s; give all samples"
     )]
     HoleInReference {
         /// Name of the log.
@@ -222,8 +221,8 @@ pub enum IdentifyError {
     },
     /// Positions of the log itself in place of a motion without noise.
     #[error(
-        "{source_name}: the motion without noise is the log's own, whatever noise that has: instruments would agree with least squares, and say \
-         nothing of it; give the wanted motion, or the log that `simulate` makes of it with the parameters of `--method wls`"
+        "{source_name}: the noise-free motion is the log's own noisy motion: instruments would repeat least squares; give the commanded \
+         motion, or the log that `simulate` makes of it with the parameters of `--method wls`"
     )]
     OwnReference {
         /// Name of the log.
@@ -236,14 +235,15 @@ pub enum IdentifyError {
         method: &'static str,
     },
     /// Rows that cannot be reduced to a factor.
-    #[error("a factor does not hold what is wanted: {why}; identify from the logs themselves")]
+    #[error("a factor does not hold the required data: {why}; identify from the logs themselves")]
     NotReduced {
         /// What a factor does not hold.
         why: String,
     },
     /// A factor of another arm, or of other rows.
     #[error(
-        "the factor has other {what} than the arm or the factors before it; make all with one spec and the same `--bands`, `--form` and `--corner`"
+        "the factor has different {what} than the arm or the factors before it; make all with one spec and the same `--bands`, `--form` and \
+         `--corner`"
     )]
     OtherFactor {
         /// Joints, unknowns, equations, filters or rows.
@@ -257,7 +257,7 @@ pub enum IdentifyError {
 /// How a log comes to a channel.
 fn way_to(channel: &str) -> &'static str {
     if channel == MOTION_PHASE {
-        "it is found in motions that repeat, twice at least, which this one does not"
+        "it needs a motion that repeats at least twice, which this one does not"
     } else {
         "log it"
     }

@@ -107,12 +107,12 @@ impl Hausman {
         let verdict = if self.probability >= Self::LEVEL {
             "least squares and instruments agree"
         } else if largest < Self::LITTLE {
-            "they differ by more than chance, but by less than half a deviation of any estimate, which matters little"
+            "they differ significantly, but by less than half a standard deviation of any estimate, which is harmless"
         } else {
-            "they disagree, so columns have noise that least squares takes for motion, or the model lacks something"
+            "they disagree, so noisy columns bias least squares, or the model lacks an effect"
         };
         Some(format!(
-            "{verdict}; {} differs most, by {:.1} deviations of the difference (p = {:.2} over all parameters) and {:.2} of its own",
+            "{verdict}; {} differs most, by {:.1} standard deviations of the difference (p = {:.2} over all parameters) and {:.2} of its own",
             parameters[most].name,
             difference.abs(),
             self.probability,

@@ -381,7 +381,7 @@ impl fmt::Display for Possible {
         if !self.border.is_empty() {
             writeln!(
                 f,
-                "on the border of what is possible: {}; deviations are those of the logs without the constraint, and say nothing of what it holds",
+                "on the boundary of physical possibility: {}; standard deviations are without the constraint, so they do not apply to these",
                 self.border.join(", ")
             )?;
         }

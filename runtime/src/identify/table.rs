@@ -33,23 +33,20 @@ impl fmt::Display for Estimate {
             let counts: Vec<String> = self.turns.iter().map(usize::to_string).collect();
             let counts = a_joint(&counts);
             if self.is_without_turns {
-                writeln!(f, "left out, where joints turn: {counts}")?;
+                writeln!(f, "left out, near velocity reversals: {counts}")?;
             } else {
-                writeln!(f, "of these where joints turn: {counts}")?;
+                writeln!(f, "of these near velocity reversals: {counts}")?;
             }
         }
         if self.held.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.held.iter().map(usize::to_string).collect();
             let counts = a_joint(&counts);
-            writeln!(
-                f,
-                "left out, where dry friction holds a joint that stands for long: {counts}"
-            )?;
+            writeln!(f, "left out, at long rests held by dry friction: {counts}")?;
         }
         if self.clipped.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.clipped.iter().map(usize::to_string).collect();
             let counts = a_joint(&counts);
-            writeln!(f, "left out, where torque stands at its limit: {counts}")?;
+            writeln!(f, "left out, torque at its limit: {counts}")?;
         }
         if let Some(effective) = &self.effective_samples {
             let counts: Vec<String> = effective.iter().map(|n| format!("{n:.0}")).collect();
@@ -58,7 +55,7 @@ impl fmt::Display for Estimate {
         if let Some(bootstrap) = &self.bootstrap {
             writeln!(
                 f,
-                "intervals hold 95 % of {} draws of {} blocks of the logs",
+                "95 % confidence intervals from {} draws of {} blocks of the logs",
                 bootstrap.draws, bootstrap.blocks
             )?;
         }
@@ -222,11 +219,11 @@ impl Estimate {
         let told: Vec<String> = joints
             .map(|(name, count)| format!("{name} {count}"))
             .collect();
-        writeln!(f, "samples far from the others: {}", told.join(", "))?;
+        writeln!(f, "outliers: {}", told.join(", "))?;
         if outliers.iter().any(|count| MANY * count > self.samples) {
             writeln!(
                 f,
-                "more than a few: what they say is in no parameter; look at them before you trust the rest"
+                "that is many, and they hardly affect the parameters; check them before you trust the rest"
             )?;
         }
         Ok(())
@@ -239,19 +236,19 @@ impl Estimate {
         if self.combinations.is_empty() {
             writeln!(
                 f,
-                "not separable: the logs do not excite these; all others are as they would be without them"
+                "not separable: the logs do not excite these; the others are not affected"
             )?;
         } else {
             writeln!(
                 f,
-                "not separable: the logs tell these only in sums with others"
+                "not separable: the logs determine these only in sums with others"
             )?;
         }
         tell_sums(f, &self.combinations)?;
         if self.possible.is_some() {
             writeln!(
                 f,
-                "for these the possible arm has what is nearest to the nominal values: `possible.standard` of `--json`"
+                "for these the possible arm uses the values nearest to the nominal ones: `possible.standard` of `--json`"
             )?;
         }
         Ok(())
@@ -270,7 +267,7 @@ impl Estimate {
         };
         writeln!(
             f,
-            "essential: {count} of {of} parameters{sums}, told from zero when all others are left out"
+            "essential: {count} of {of} parameters{sums}, significantly nonzero without all others"
         )?;
         let names = essential.parameters.iter().map(|p| p.name.len());
         let width = names.max().unwrap_or(0);

@@ -55,7 +55,7 @@ pub enum LogError {
     },
     /// A header field is empty.
     #[error(
-        "{source_name}:{line}: column {column} has no name; name every column of numbers; only one in front that counts the rows may have none"
+        "{source_name}:{line}: column {column} has no name; name every column of numbers; only a first column that counts the rows may have none"
     )]
     UnnamedColumn {
         /// The file.
@@ -67,7 +67,7 @@ pub enum LogError {
     },
     /// More columns than any arm has channels.
     #[error(
-        "{source_name}:{line}: the log has {found} columns, more than {most}; leave out those that are no channels of the arm"
+        "{source_name}:{line}: the log has {found} columns, more than {most}; remove those that are not channels of the arm"
     )]
     TooManyColumns {
         /// The file.
@@ -94,7 +94,7 @@ pub enum LogError {
     },
     /// Two columns of one name.
     #[error(
-        "{source_name}:{line}: column `{}` stands there twice; delete one of them, or give it another name",
+        "{source_name}:{line}: column `{}` appears twice; delete or rename one of them",
         field(name)
     )]
     DuplicateColumn {
@@ -107,7 +107,8 @@ pub enum LogError {
     },
     /// One column that is to be two channels.
     #[error(
-        "{source_name}: column `{name}` would be two channels; give each a column of its own, standard names count where the spec's `log` and its settings give no other"
+        "{source_name}: column `{name}` would be two channels; give each its own column; standard names apply where the spec's `log` and \
+         its settings give none"
     )]
     TwoChannels {
         /// The file.
@@ -196,8 +197,8 @@ pub enum LogError {
     },
     /// A bag of ROS 2 without the arm's joints.
     #[error(
-        "{source_name}: no message on `{topic}` has the joint{} {}; joints there are {}; call the spec's joints as they are called \
-         there, or name theirs in the spec's `log`: `q = \"NAME.position\", ..; tau = \"NAME.effort\", ..;`",
+        "{source_name}: no message on `{topic}` has the joint{} {}; joints there are {}; rename the spec's joints accordingly, or name the \
+         bag's joints in the spec's `log`: `q = \"NAME.position\", ..; tau = \"NAME.effort\", ..;`",
         plural(missing.len()), list(missing), list(present)
     )]
     NoSuchJoints {
@@ -212,7 +213,7 @@ pub enum LogError {
     },
     /// A bag of ROS 2 whose messages have some of the arm's joints each.
     #[error(
-        "{source_name}: no message on `{topic}` has all of {} at once; record a topic that joins them, as `joint_state_publisher` does",
+        "{source_name}: no message on `{topic}` has all of {} at once; record a topic that combines them, as `joint_state_publisher` does",
         list(joints)
     )]
     ScatteredJoints {
@@ -225,14 +226,14 @@ pub enum LogError {
     },
     /// A bag of ROS 2, read without names of joints.
     #[error(
-        "{source_name}: it has joints by name, and none are given; name them in `Columns::joints`"
+        "{source_name}: it has joints by name, but no names are given; name them in `Columns::joints`"
     )]
     NoJointNames {
         /// The file.
         source_name: String,
     },
     /// A row that is longer or shorter than the header.
-    #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}; give every row one field a column, or remove the row", plural(*.found))]
+    #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}; give every row one field per column, or remove the row", plural(*.found))]
     ColumnCount {
         /// The file.
         source_name: String,
@@ -276,7 +277,7 @@ pub enum LogError {
         text: String,
     },
     /// Many rows that lack a number.
-    #[error("{first}; {rows} of {of} rows have such a field, too many to be filled in")]
+    #[error("{first}; {rows} of {of} rows have such a field, too many to interpolate")]
     ManyLost {
         /// What is wrong with the first.
         first: Box<LogError>,
@@ -303,8 +304,8 @@ pub enum LogError {
     },
     /// Time repeats or runs back.
     #[error(
-        "{place}: time does not rise: {time} s follows {previous} s; remove the row if it is there twice, or split the log \
-         here and give both parts"
+        "{place}: time does not increase: {time} s follows {previous} s; remove the row if it is a duplicate, or split the log here and \
+         give both parts"
     )]
     TimeOrder {
         /// File and line, or log and sample.
@@ -331,8 +332,8 @@ pub enum LogError {
     },
     /// None of several gaps is too long, and all together are.
     #[error(
-        "{source_name}: {times} gaps in time take {seconds:.2} s of {all:.2} s, more than {most:.0} %, the first behind {first} s; give the parts \
-         between them as logs of their own"
+        "{source_name}: {times} gaps in time take {seconds:.2} s of {all:.2} s, more than {most:.0} %, the first after {first} s; give the \
+         parts between them as separate logs"
     )]
     Gaps {
         /// The log.
@@ -381,7 +382,7 @@ pub enum LogError {
     },
     /// Too short for anything.
     #[error(
-        "{source_name}: the log has {found} sample{}, at least {fewest} are needed; record a longer motion, or look whether the file was cut off",
+        "{source_name}: the log has {found} sample{}, at least {fewest} are needed; record a longer motion, or check whether the file is truncated",
         plural(*.found)
     )]
     TooFewSamples {

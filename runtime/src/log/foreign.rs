@@ -58,7 +58,7 @@ const KINDS: [(&[u8], &str, &str); 20] = [
     (
         b"<?xml",
         "XML, as URDFs are",
-        "name the log behind the spec; `robot-model import` makes a spec of a URDF",
+        "name the log after the spec; `robot-model import` makes a spec of a URDF",
     ),
     (b"%PDF", "a PDF file", OF_NUMBERS),
     (

@@ -100,19 +100,17 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::ExtraChannels { names } => write!(f, "extra channels: {}", list(names)),
-            Self::NoNumbers { names } => write!(
-                f,
-                "columns that hold no numbers are left out: {}",
-                list(names)
-            ),
+            Self::NoNumbers { names } => {
+                write!(f, "columns without numbers are ignored: {}", list(names))
+            }
             Self::Sparse { names } => write!(
                 f,
-                "columns that have a number in some rows only are joined by straight lines: {}",
+                "columns with numbers in only some rows are interpolated: {}",
                 list(names)
             ),
             Self::StandardColumns => write!(
                 f,
-                "it lacks the columns that the spec's `log` names, or its settings, and has `time`, `q1` and so on: these are read, in SI units"
+                "it lacks the columns named by the spec's `log` or its settings, but has `time`, `q1` and so on: these are read, in SI units"
             ),
             Self::Above {
                 lines,
@@ -127,7 +125,7 @@ impl fmt::Display for Note {
             ),
             Self::RowNumbers => write!(
                 f,
-                "the first column has no name and counts the rows: it is left out"
+                "the first column has no name and counts the rows: it is ignored"
             ),
             Self::DecimalCommas => write!(f, "commas in numbers are read as decimal points"),
             Self::Units {
@@ -148,7 +146,7 @@ impl fmt::Display for Note {
             }
             Self::Clock { first } => write!(
                 f,
-                "time is in times of day: it is read as seconds since the first, `{first}`"
+                "time is given as times of day: it is read as seconds since the first, `{first}`"
             ),
             Self::TwoTimes {
                 seconds,
@@ -168,7 +166,7 @@ impl fmt::Display for Note {
             }
             Self::Coincident { samples, first } => write!(
                 f,
-                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
+                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; each pair was replaced by its mean"
             ),
             Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Resampled {
@@ -204,6 +202,6 @@ fn contradicted(f: &mut fmt::Formatter<'_>, against: &[String]) -> fmt::Result {
     let against = against.join(", ");
     write!(
         f,
-        "{against}, of which settings say another unit: they hold, take out what is wrong"
+        "{against}, but settings give another unit, which is used; remove the wrong one"
     )
 }

@@ -134,7 +134,7 @@ impl ParquetRows {
                     source_name: self.source.clone(),
                     line: 1,
                     reason: format!(
-                        "column `{}` holds no whole or real numbers: write it as a column of doubles",
+                        "column `{}` is not numeric: write it as a column of doubles",
                         self.names[k]
                     ),
                 });
@@ -281,7 +281,7 @@ impl PageReader for Bounded {
             return Ok(page);
         }
         Err(ParquetError::General(format!(
-            "a page that is said to have {values} values, where {most} are the most"
+            "a page claims to have {values} values, but the most are {most}"
         )))
     }
 

@@ -95,7 +95,7 @@ impl Kind {
                 source_name: source.to_owned(),
                 line: 1,
                 reason: format!(
-                    "it does not begin as {what} does, so it is damaged or another file; write it again, or copy it again as binary"
+                    "it does not begin like {what}, so it is damaged or another kind of file; write it again, or copy it again as binary"
                 ),
             })
         })

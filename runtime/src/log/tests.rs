@@ -123,8 +123,7 @@ fn bad_fields_are_told_with_line_and_column() {
     }
     assert_eq!(
         refusal(&text("time,q1,tau1", &holes), 1),
-        "monday.csv:3: `nan` in column `q1` is not finite; remove or repair the row; 3 of 20 rows have such a field, too many to be \
-         filled in"
+        "monday.csv:3: `nan` in column `q1` is not finite; remove or repair the row; 3 of 20 rows have such a field, too many to interpolate"
     );
     assert_eq!(
         with(6, "0.04,1,-inf"),
@@ -140,11 +139,11 @@ fn bad_fields_are_told_with_line_and_column() {
     );
     assert_eq!(
         with(9, "0.07,1"),
-        "monday.csv:9: the row has 2 fields, the header has 3; give every row one field a column, or remove the row"
+        "monday.csv:9: the row has 2 fields, the header has 3; give every row one field per column, or remove the row"
     );
     assert_eq!(
         with(9, "0.07,1,2,3"),
-        "monday.csv:9: the row has 4 fields, the header has 3; give every row one field a column, or remove the row"
+        "monday.csv:9: the row has 4 fields, the header has 3; give every row one field per column, or remove the row"
     );
 }
 
@@ -157,11 +156,13 @@ fn time_that_does_not_rise_is_told_with_its_line() {
     };
     assert_eq!(
         with(7, "0.04,1,1"),
-        "monday.csv:7: time does not rise: 0.04 s follows 0.04 s; remove the row if it is there twice, or split the log here and give both parts"
+        "monday.csv:7: time does not increase: 0.04 s follows 0.04 s; remove the row if it is a duplicate, or split the log here and give \
+         both parts"
     );
     assert_eq!(
         with(7, "0.01,1,1"),
-        "monday.csv:7: time does not rise: 0.01 s follows 0.04 s; remove the row if it is there twice, or split the log here and give both parts"
+        "monday.csv:7: time does not increase: 0.01 s follows 0.04 s; remove the row if it is a duplicate, or split the log here and give \
+         both parts"
     );
     let mut gap = rows(40);
     gap.drain(10..20);
@@ -199,11 +200,11 @@ fn headers_are_checked() {
     );
     assert_eq!(
         header("time,q1,tau1,q1", 1),
-        "monday.csv:1: column `q1` stands there twice; delete one of them, or give it another name"
+        "monday.csv:1: column `q1` appears twice; delete or rename one of them"
     );
     assert_eq!(
         header("time,q1,,tau1", 1),
-        "monday.csv:1: column 3 has no name; name every column of numbers; only one in front that counts the rows may have none"
+        "monday.csv:1: column 3 has no name; name every column of numbers; only a first column that counts the rows may have none"
     );
     assert_eq!(
         refusal(&rows(20).join("\n"), 1),
@@ -223,11 +224,11 @@ fn short_and_empty_logs_are_refused() {
     );
     assert_eq!(
         refusal("time,q1,tau1\n", 1),
-        "monday.csv: the log has 0 samples, at least 16 are needed; record a longer motion, or look whether the file was cut off"
+        "monday.csv: the log has 0 samples, at least 16 are needed; record a longer motion, or check whether the file is truncated"
     );
     assert_eq!(
         refusal(&text("time,q1,tau1", &rows(15)), 1),
-        "monday.csv: the log has 15 samples, at least 16 are needed; record a longer motion, or look whether the file was cut off"
+        "monday.csv: the log has 15 samples, at least 16 are needed; record a longer motion, or check whether the file is truncated"
     );
     let folder = Log::read(env!("CARGO_MANIFEST_DIR"), 1)
         .expect_err("a folder is no log")
@@ -313,7 +314,8 @@ fn samples_from_memory_are_checked_too() {
     q[0][8] = 1.0;
     assert_eq!(
         text(&repeated, q),
-        "plant: sample 8: time does not rise: 7 s follows 7 s; remove the row if it is there twice, or split the log here and give both parts"
+        "plant: sample 8: time does not increase: 7 s follows 7 s; remove the row if it is a duplicate, or split the log here and give \
+         both parts"
     );
 }
 
@@ -326,14 +328,14 @@ fn files_that_are_no_csv_are_told() {
     };
     assert!(
         with(b"time,q1,tau1\n0,\xe9,0\n")
-            .starts_with("monday.csv:2: byte 0xe9 in `\u{fffd}` is no UTF-8 text")
+            .starts_with("monday.csv:2: byte 0xe9 in `\u{fffd}` is not UTF-8 text")
     );
     for (name, bytes) in [
         ("bag.MCAP", b"\x88MCAP0\r\n".as_slice()),
         ("monday.parquet", b"\0AR1\x15\x04"),
     ] {
         let refused = Log::from_reader(name, bytes, 1).expect_err("damaged");
-        let said = format!("{name}:1: cannot read the log: it does not begin as");
+        let said = format!("{name}:1: cannot read the log: it does not begin like");
         assert!(refused.to_string().starts_with(&said), "{refused}");
     }
     let folder = Log::read(env!("CARGO_MANIFEST_DIR"), 1).expect_err("a folder");
@@ -355,8 +357,8 @@ fn implausible_logs_are_refused() {
     };
     assert_eq!(
         at_step(5.0).expect_err("milliseconds").to_string(),
-        "monday.csv: the sample rate is 0.2000 Hz, outside 10 Hz .. 100000 Hz; is time in seconds? in ms it \
-         would be one of an arm: `time = \"..\": ms;` in the `log` of the spec says so"
+        "monday.csv: the sample rate is 0.2000 Hz, outside 10 Hz .. 100000 Hz; is time in seconds? in ms it would be plausible: write \
+         `time = \"..\": ms;` in the `log` of the spec"
     );
     let in_nanoseconds = at_step(1e7).expect_err("nanoseconds").to_string();
     assert!(in_nanoseconds.contains("rate is 1.0e-7 Hz") && in_nanoseconds.contains(": ns;`"));

@@ -220,9 +220,9 @@ pub(super) fn behind(name: &str, family: &str) -> Option<&'static str> {
 fn hint(words: &Words, written: &str) -> &'static str {
     let is_of = |table: &Words| table.iter().any(|(word, ..)| *word == written);
     if words == CURRENTS && is_of(&TORQUES) {
-        " (the joint's `actuator_gain` makes a torque of a current; a log of torques wants a spec without it)"
+        " (the joint's `actuator_gain` converts a current to a torque; remove it for a log of torques)"
     } else if words == TORQUES && is_of(&CURRENTS) {
-        " (a current wants an `actuator_gain` of the joint in the spec, such as `0.1 Nm/A`)"
+        " (a current needs an `actuator_gain` of the joint in the spec, such as `0.1 Nm/A`)"
     } else {
         ""
     }

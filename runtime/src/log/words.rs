@@ -69,7 +69,7 @@ pub(super) fn hertz(rate: f64) -> String {
 /// What may be done about a time in another unit.
 pub(super) fn in_unit(unit: Option<&str>) -> String {
     unit.map_or(String::new(), |unit| {
-        format!(" in {unit} it would be one of an arm: `time = \"..\": {unit};` in the `log` of the spec says so")
+        format!(" in {unit} it would be plausible: write `time = \"..\": {unit};` in the `log` of the spec")
     })
 }
 

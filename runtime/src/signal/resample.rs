@@ -29,7 +29,7 @@ pub fn grid(start: f64, step: f64, count: usize) -> Vec<f64> {
 pub fn cubic(time: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
     assert!(
         time.len() >= 3 && values.len() == time.len(),
-        "a curve through samples wants three or more, each with a value"
+        "a curve needs three or more samples, each with a value"
     );
     let last = time.len() - 1;
     let secant = |k: usize| (values[k + 1] - values[k]) / (time[k + 1] - time[k]);

@@ -112,7 +112,7 @@ impl Gains {
     /// use robot_model::simulate::Gains;
     /// assert!(Gains::new(20.0, 1.0).is_ok());
     /// let error = Gains::new(-3.0, 1.0).unwrap_err();
-    /// assert_eq!(error.to_string(), "the natural frequency has to be positive, not -3");
+    /// assert_eq!(error.to_string(), "the natural frequency must be positive, not -3");
     /// ```
     pub fn new(frequency: f64, damping: f64) -> Result<Self, SimulateError> {
         for (what, value) in [

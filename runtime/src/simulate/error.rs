@@ -8,7 +8,8 @@ use thiserror::Error;
 pub enum SimulateError {
     /// `d tau / d ddq` is singular: something moves that has no inertia.
     #[error(
-        "at {time:.6} s the arm has no accelerations: its inertia is singular there; give every joint that moves an inertia, of its link or `motor_inertia`"
+        "at {time:.6} s the accelerations are undefined: the mass matrix is singular; give every moving joint an inertia, by its link or \
+         `motor_inertia`"
     )]
     NoInertia {
         /// Time, s.
@@ -16,7 +17,8 @@ pub enum SimulateError {
     },
     /// A torque of the plant is no number.
     #[error(
-        "at {time:.6} s the torque of joint {joint} is no number: no load displaces the link behind its spring so far, or an effect's formula has no value there; look at the parameters of its effects"
+        "at {time:.6} s the torque of joint {joint} is not a number: the spring deflection has no matching load, or an effect's formula has \
+         no value there; check the parameters of its effects"
     )]
     NoTorque {
         /// Time, s.
@@ -26,7 +28,8 @@ pub enum SimulateError {
     },
     /// The load of a joint and what depends on it drive each other up.
     #[error(
-        "at {time:.6} s the accelerations have no solution: the load and what depends on it, friction or a displaced link, drive each other up, or the motion is beyond all bounds; make that friction or displacement smaller, or the controller softer"
+        "at {time:.6} s the accelerations have no solution: the load and the friction or deflection that depends on it amplify each other, \
+         or the motion diverges; reduce that friction or deflection, or the controller's gains"
     )]
     NoAcceleration {
         /// Time, s.
@@ -34,7 +37,7 @@ pub enum SimulateError {
     },
     /// A position, velocity or state is no number, or has grown beyond all bounds.
     #[error(
-        "at {time:.6} s the motion of joint {joint} is beyond all bounds; look at the parameters, and where a controller drives the arm at its gains and rate"
+        "at {time:.6} s the motion of joint {joint} diverges; check the parameters, and the controller's gains and rate"
     )]
     Unbounded {
         /// Time, s.
@@ -44,7 +47,7 @@ pub enum SimulateError {
     },
     /// Neighboring motions part beyond all bounds.
     #[error(
-        "at {time:.6} s the least change of a parameter or of the start moves joint {joint} beyond all bounds; look at the parameters, or simulate less at once"
+        "at {time:.6} s the sensitivity of joint {joint} to parameters or start values diverges; check the parameters, or simulate a shorter time"
     )]
     Sensitive {
         /// Time, s.
@@ -54,7 +57,7 @@ pub enum SimulateError {
     },
     /// An internal state has grown beyond all bounds.
     #[error(
-        "at {time:.6} s internal state {state} of the effects is beyond all bounds; look at the parameters of its effect"
+        "at {time:.6} s internal state {state} of the effects diverges; check the parameters of its effect"
     )]
     UnboundedState {
         /// Time, s.
@@ -63,7 +66,7 @@ pub enum SimulateError {
         state: usize,
     },
     /// A number of the set-up is out of its range.
-    #[error("{what} has to be {range}, not {value}")]
+    #[error("{what} must be {range}, not {value}")]
     Setting {
         /// What it is.
         what: &'static str,

@@ -57,7 +57,7 @@ impl Trajectory {
     /// let wanted = Trajectory::new(time, vec![vec![0.0, 0.2, 0.4, 0.6]], vec![], vec![], vec![])?;
     /// assert!((wanted.at(0.15).dq[0] - 2.0).abs() < 1e-12);
     /// let short = Trajectory::new(vec![0.0, 0.1], vec![vec![0.0, 0.2]], vec![], vec![], vec![]).unwrap_err();
-    /// assert_eq!(short.to_string(), "the number of samples of a trajectory has to be 4 or more, not 2");
+    /// assert_eq!(short.to_string(), "the number of samples of a trajectory must be 4 or more, not 2");
     /// # Ok::<(), robot_model::simulate::SimulateError>(())
     /// ```
     pub fn new(

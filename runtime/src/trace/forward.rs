@@ -117,7 +117,7 @@ impl<'a> Trace<'a> {
         if logs.iter().all(|log| !log.turn_speeds.is_empty()) {
             return self.traced(arm, &identify, bands, logs, progress);
         }
-        progress(&Stage::whole("finding how slowly joints turn round"));
+        progress(&Stage::whole("fitting speeds at velocity reversals"));
         let speeds = identify.turn_speeds(arm, logs)?;
         let logs = Log::all_with_turn_speeds(logs, &speeds);
         self.traced(arm, &identify, bands, &logs, progress)

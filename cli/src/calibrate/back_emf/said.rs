@@ -20,15 +20,15 @@ const SHOWN: usize = 12;
 pub(super) fn note_voltage(found: &MotorVoltage) {
     if found.alike.abs() > ALIKE {
         output::say(&format!(
-            "note: current and velocity go together (r = {:.4}), so resistance and back-EMF are hardly told apart; let the motor speed \
-             up and slow down",
+            "note: current and velocity are correlated (r = {:.4}), so resistance and back-EMF are hardly separable; let the motor speed up \
+             and slow down",
             found.alike
         ));
     }
     if let Some([resistance, back_emf, _]) = found.least_squares {
         output::say(&format!(
-            "note: noise of the current or of the velocity makes least squares find {} ohm and {} V s/rad; values are by instruments, \
-             which samples beside each one are",
+            "note: noise of current or velocity biases least squares ({} ohm and {} V s/rad); these values are by instrumental variables, \
+             with neighboring samples as instruments",
             significant(resistance, 4),
             significant(back_emf, 4)
         ));
@@ -39,7 +39,7 @@ pub(super) fn note_voltage(found: &MotorVoltage) {
     ] {
         if value.interval[1] < 0.0 {
             output::say(&format!(
-                "note: the {what} is below zero: current, velocity and voltage are to be positive in the same direction"
+                "note: the {what} is negative: current, velocity and voltage must be positive in the same direction"
             ));
         }
     }
@@ -48,12 +48,12 @@ pub(super) fn note_voltage(found: &MotorVoltage) {
 pub(super) fn note_commanded(found: &Commanded) {
     if found.back_emf.interval[1] < 0.0 {
         output::say(
-            "note: the back-EMF is below zero: current and velocity are to be positive in the same direction",
+            "note: the back-EMF is negative: current and velocity must be positive in the same direction",
         );
     }
     if found.attenuation > ATTENUATED {
         output::say(&format!(
-            "note: noise of the velocity may have made the back-EMF too small, by {:.1} % at most; log finer or longer",
+            "note: velocity noise may bias the back-EMF low, by at most {:.1} %; log with higher resolution, or longer",
             found.attenuation
         ));
     }

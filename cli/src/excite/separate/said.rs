@@ -11,7 +11,7 @@ pub(super) type Sizes = Vec<(String, f64)>;
 pub(super) fn said(text: &str) -> Result<(Amendment, Sizes), Error> {
     let refused = || {
         Error::Argument(format!(
-            "`{text}` is no effect with its size: write `stribeck(vs = 0.1) on elbow: fs = 2`, numbers with commas between them"
+            "`{text}` is not an effect with its size: write `stribeck(vs = 0.1) on elbow: fs = 2`, values separated by commas"
         ))
     };
     let (declaration, sizes) = match text.split_once(':') {

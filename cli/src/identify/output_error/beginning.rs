@@ -94,8 +94,8 @@ impl Beginning {
             (None, None) => both(parameters::resolve(compiled, None).map_err(|lack| {
                 let why = match &linear {
                     // The arm may well move, as one that is let go does.
-                    Err(IdentifyError::NothingExcited { .. }) => "torques that never change, or joints that do not move, tell it \
-                         nothing; of an arm that is let go give `--start`"
+                    Err(IdentifyError::NothingExcited { .. }) => "constant torques and joints at rest are no use to it; if the arm falls \
+                                                                  freely, give `--start`"
                         .to_owned(),
                     Err(error) => error.to_string(),
                     Ok(estimate) => {
@@ -105,7 +105,7 @@ impl Beginning {
                     }
                 };
                 Error::Argument(format!(
-                    "a simulation has to start somewhere, and least squares on these logs gives no place: {why}; nor does the spec: {lack}"
+                    "a simulation needs start values, which neither least squares on these logs gives ({why}) nor the spec: {lack}"
                 ))
             })?),
         };
@@ -132,7 +132,7 @@ impl Beginning {
             return refused(error);
         };
         Error::Argument(format!(
-            "{error}\nno arm has the parameters that the search starts from: {inertia}; start from the nearest arm that can be: `--method \
+            "{error}\nthe search starts from physically impossible parameters: {inertia}; start from the nearest possible arm: `--method \
              physical --json start.json`, then `--start start.json`"
         ))
     }

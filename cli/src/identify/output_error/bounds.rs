@@ -67,7 +67,7 @@ pub(super) fn bounds(
             let (name, [low, high]) = (&names[place], sum);
             return Err(Error::json(
                 path,
-                &format!("`{name}` would be within {low} .. {high}, and is never below zero"),
+                &format!("the bounds of `{name}` are {low} .. {high}, but it is never negative"),
             ));
         }
         of_file[place] = [low, high];
@@ -117,7 +117,7 @@ pub(super) fn doubt(
     let others: Vec<String> = others.collect();
     Ok((!others.is_empty()).then(|| {
         format!(
-            "{} has other ranges than {percent} %: {}",
+            "{} sets other ranges than {percent} %: {}",
             path.display(),
             others.join(", ")
         )
@@ -181,7 +181,7 @@ fn read(path: &Path) -> Result<Given, Error> {
             Some(range) if range[0] <= range[1] => Ok((name, range)),
             _ => Err(Error::json(
                 path,
-                &format!("`{name}`: write `[LOW, HIGH]`, two numbers that rise"),
+                &format!("`{name}`: write `[LOW, HIGH]`, two ascending numbers"),
             )),
         }
     };
@@ -274,7 +274,7 @@ impl Parts<'_> {
                     .filter(|part| !self.given.contains_key(*part))
                     .collect();
                 Err(format!(
-                    "`{name}` alone bounds nothing that a motion tells; `{}` needs bounds of {}, too, or one of its own",
+                    "`{name}` alone bounds nothing identifiable; `{}` also needs bounds of {}, or bounds of its own",
                     names[base],
                     output::names(&open)
                 ))

@@ -81,7 +81,7 @@ impl Display for Told {
         let Some(values) = &self.values else {
             return writeln!(
                 f,
-                "the spec's own constants {own} show in {sums} sums of products alone, and none near the spec's make what was found"
+                "the spec's own constants {own} appear only in {sums} sums of products, and no values near the spec's give the identified sums"
             );
         };
         let (told, untold): (Vec<_>, Vec<_>) =
@@ -95,11 +95,11 @@ impl Display for Told {
         let told = if told.is_empty() {
             String::new()
         } else {
-            format!("; the sums tell {}", told.join(", "))
+            format!("; the sums determine {}", told.join(", "))
         };
         writeln!(
             f,
-            "rank {} of {} with the spec's own constants: {own} show in {sums} sums of products alone, and no value by itself has any of {}{told}",
+            "rank {} of {} with the spec's own constants: {own} appear only in {sums} sums of products, which do not determine {}{told}",
             values.rank,
             values.unknowns,
             listed(&untold)

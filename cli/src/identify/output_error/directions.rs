@@ -49,13 +49,13 @@ pub(super) fn hanging(frail: &Direction) -> String {
         })
         .collect();
     let less = if frail.is_silent() {
-        "not at all beside".to_owned()
+        "not at all, compared with".to_owned()
     } else {
         format!("{:.0} times less than", 1.0 / frail.singular)
     };
     format!(
-        "told by little of the motion: {}: a share of {} value moves positions {less} the same share of what moves them most, so \
-         whatever the model lacks is laid upon it; ratios of the others are known better than this, whatever the deviations say",
+        "weakly excited: {}: a relative change of {} value moves positions {less} the same change of the strongest parameter, so model \
+         errors accumulate here; the ratios of the other parameters are known better, whatever the standard deviations say",
         moves.join(", "),
         if moves.len() == 1 { "its" } else { "their" },
     )
@@ -73,7 +73,9 @@ mod tests {
         };
         assert!(said(0.02).contains("its value moves positions 50 times less than"));
         for nothing in [0.0, 1e-17] {
-            assert!(said(nothing).contains("moves positions not at all beside the same share"));
+            assert!(
+                said(nothing).contains("moves positions not at all, compared with the same change")
+            );
         }
     }
 }

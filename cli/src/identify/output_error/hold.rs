@@ -24,15 +24,19 @@ pub(super) fn doubt(names: &[String], found: &OutputEstimate) -> Option<String> 
         std.is_some_and(|std| (*value - *other).abs() > APART * std)
     });
     let moved = moved.map(|((name, (value, other)), _)| {
-        format!("{name} {} for {}", table_value(*other), table_value(*value))
+        format!(
+            "{name} {} instead of {}",
+            table_value(*other),
+            table_value(*value)
+        )
     });
     let moved: Vec<String> = moved.collect();
     let chosen = said(other(rival.hold));
     let option = option(rival.hold);
     (!moved.is_empty()).then(|| {
         format!(
-            "torque is {chosen}, as that fits best; with `--hold {option}` positions are off by {:.1} % more, and there is {}: the logs hardly tell \
-             which of both it is, while these values hang on it; say with `--hold` what the drive does, or log faster",
+            "torque is {chosen}, which fits best; with `--hold {option}` position errors are {:.1} % larger, with {}: the logs hardly \
+             distinguish the two, but these values depend on it; say with `--hold` what the drive does, or log faster",
             100.0 * rival.worse.max(0.0),
             moved.join(", ")
         )
@@ -64,7 +68,7 @@ pub(super) fn asked(
         iterations: Some(A_FEW),
         ..settings.clone()
     };
-    progress.step("asking whether torque goes between samples in the other way");
+    progress.step("trying the other interpolation of torque between samples");
     let (plant, names) = (&beginning.plant, &beginning.names);
     // An arm that runs away was not driven so.
     let rival = settings.fit(plant, names, &found.values, recordings, &mut |_| ());
@@ -74,8 +78,8 @@ pub(super) fn asked(
     let ratio = (ratios.iter().sum::<f64>() / ratios.len() as f64).exp();
     (ratio < 1.0 - FAR_BETTER).then(|| {
         format!(
-            "torque is {}, as `--hold` says; with `--hold {}` positions are off by {:.0} % less, so the drive does that, or what is found makes \
-             up for half a sample",
+            "torque is {}, as `--hold` says; with `--hold {}` position errors are {:.0} % smaller, so the drive does that, or the values \
+             compensate for half a sample of delay",
             said(other(hold)),
             option(hold),
             100.0 * (1.0 - ratio)

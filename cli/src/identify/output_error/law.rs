@@ -51,7 +51,7 @@ pub(super) fn read(path: &Path, joints: &[Joint]) -> Result<Law, Error> {
             .is_some_and(|limit| limit.is_nan() || limit <= 0.0)
         {
             return Err(refuse(&format!(
-                "joint {}: `limit` has to be positive",
+                "joint {}: `limit` must be positive",
                 joint.name
             )));
         }
@@ -98,8 +98,8 @@ pub(super) fn doubt(joints: &[String], off: &[Distance], left: &[f64]) -> Option
     let far: Vec<String> = far.collect();
     (!far.is_empty()).then(|| {
         format!(
-            "torques of the simulated controller are off by far more than what the equations leave of the logged ones: {}; where its gains, its \
-             rate or its reference are others than those of the experiment, values of the arm make up for them",
+            "errors of the simulated controller's torques are far larger than the residual of the equations: {}; if its gains, rate or \
+             reference differ from those of the experiment, the arm's values compensate for them",
             far.join(", ")
         )
     })

@@ -108,12 +108,12 @@ fn said(parted: &Compiled, lumped: &[Sum<'_>], split: &Split) -> String {
     let scaled = match of(Origin::Scaled).as_slice() {
         [] => String::new(),
         list => format!(
-            "from a share of the spec's values of {}, which would leave a motor nothing, and ",
+            "from scaled-down spec values of {}, as the full ones would leave no motor inertia, and ",
             names(list)
         ),
     };
     format!(
-        "springs part what is one sum there ({}); the search starts {spec}{scaled}from what is left of each sum for {}",
+        "springs separate parameters that are one sum there ({}); the search starts {spec}{scaled}from the remainder of each sum for {}",
         names(&sums),
         names(&of(Origin::Fit))
     )

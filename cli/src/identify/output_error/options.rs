@@ -10,28 +10,27 @@ use crate::Error;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output error")]
 pub(crate) struct Options {
-    /// Parameters to start from: by name, or what `identify --json` wrote; without it those of `--method wls` on the same logs.
+    /// Start parameters: by name, or what `identify --json` wrote; default: those of `--method wls` on the same logs.
     #[arg(long, value_name = "FILE.json")]
     pub start: Option<PathBuf>,
-    /// Who looks for the least error; `levenberg-marquardt` without it.
+    /// Search algorithm; default `levenberg-marquardt`.
     #[arg(long, value_enum)]
     pub(super) search: Option<SearchArgument>,
-    /// Least and largest values of parameters, `{"NAME": [LOW, HIGH], ..}`, also of the standard parameters and constants that base parameters
-    /// are sums of; without it ranges of shapes.
+    /// Bounds of parameters, `{"NAME": [LOW, HIGH], ..}`, also of the standard parameters and constants in base parameters; default: only
+    /// the ranges of shapes.
     #[arg(long, value_name = "FILE.json")]
     pub bounds: Option<PathBuf>,
-    /// Parameters stay within so many percent of the start; those that `--bounds` has within its ranges, and it is told where these are
-    /// others.
+    /// Keep parameters within this percentage of the start; `--bounds` takes precedence, and a note lists the differences.
     #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
     pub(super) within: Option<f64>,
-    /// Cut logs into windows of so many seconds, each with a start of its own, its effects' memories at zero; without it 1 s, and whole
-    /// logs with `--controller` or where effects remember.
+    /// Cut logs into windows of this many seconds, each with its own start and with effect memories at zero; default: 1 s, but whole logs
+    /// with `--controller` or if effects have a memory.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(super) window: Option<f64>,
-    /// The controller of the experiment, which is simulated too; without it the logged torque drives the arm.
+    /// The controller of the experiment, to be simulated too; without it the logged torque drives the arm.
     #[arg(long, value_name = "FILE.json")]
     pub controller: Option<PathBuf>,
-    /// Torque between samples of the log; without it the one whose errors are less, where torque changes from sample to sample.
+    /// Torque between samples of the log; default: the one with smaller errors, if torque changes from sample to sample.
     #[arg(long, value_enum)]
     pub(super) hold: Option<HoldArgument>,
 }
@@ -46,9 +45,9 @@ pub(crate) enum SearchArgument {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum HoldArgument {
-    /// The mean of both samples: torques that are measured, or means over an interval.
+    /// The mean of both samples: for measured torques, or means over an interval.
     Mean,
-    /// That of the sample before: commands that are held.
+    /// The value of the previous sample: for held commands.
     Sample,
 }
 
@@ -73,13 +72,13 @@ impl Options {
         let is_positive = |number: f64| number > 0.0;
         if let Some(window) = self.window.filter(|window| !is_positive(*window)) {
             return Err(Error::Argument(format!(
-                "`--window` has to be positive, not {window}"
+                "`--window` must be positive, not {window}"
             )));
         }
         let is_share = |percent: f64| is_positive(percent) && percent.is_finite();
         if let Some(percent) = self.within.filter(|percent| !is_share(*percent)) {
             return Err(Error::Argument(format!(
-                "`--within` has to be a positive number of percent, not {percent}"
+                "`--within` must be a positive number of percent, not {percent}"
             )));
         }
         let of_log = [
@@ -89,7 +88,7 @@ impl Options {
         let mut given = of_log.into_iter().filter(|(_, is_given)| *is_given);
         match (&self.controller, given.next()) {
             (Some(_), Some((option, _))) => Err(Error::Argument(format!(
-                "`{option}` is of arms that the logged torque drives; with `--controller` logs are simulated whole, and its torque is held"
+                "`{option}` needs an arm driven by the logged torque; with `--controller` whole logs are simulated, and its torque is held"
             ))),
             _ => Ok(()),
         }

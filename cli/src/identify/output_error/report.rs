@@ -245,7 +245,7 @@ impl OutputReport<'_> {
         if found.ending == Ending::OutOfIterations {
             writeln!(
                 text,
-                "the search ran out of iterations: values are on their way; start nearer, with `--start`{}",
+                "the search ran out of iterations before it converged; start nearer, with `--start`{}",
                 self.window.map_or("", |_| ", or with longer windows")
             )?;
             let unsure = found.unsure.iter().map(|(name, share)| match share {
@@ -256,7 +256,7 @@ impl OutputReport<'_> {
             if !unsure.is_empty() {
                 writeln!(
                     text,
-                    "hardly identified, where it came to: {}",
+                    "hardly identified, value where the search stopped: {}",
                     unsure.join(", ")
                 )?;
             }
@@ -286,7 +286,7 @@ impl OutputReport<'_> {
         if !silent.is_empty() {
             writeln!(
                 text,
-                "not separable: {}: only what the lines above leave of them is known",
+                "not separable: {}: only the combinations in the lines above are known",
                 listed(&silent)
             )?;
         }
@@ -326,8 +326,8 @@ impl OutputReport<'_> {
         let width = joints.iter().map(|joint| joint.name.len()).max();
         let width = width.unwrap_or(0).max("joint".len());
         let windows = match self.window {
-            Some(seconds) => format!("in windows of {seconds} s, the start of each fitted"),
-            None => "logs whole, their starts fitted".to_owned(),
+            Some(seconds) => format!("windows of {seconds} s, the start of each fitted"),
+            None => "whole logs, their starts fitted".to_owned(),
         };
         let hold = match self.found.hold {
             Some(Hold::Sample) => ", torque held from each sample to the next",
@@ -335,7 +335,7 @@ impl OutputReport<'_> {
         };
         writeln!(
             text,
-            "\nSimulated beside logged, {windows}{hold}; rad or m, N m or N"
+            "\nSimulated against logged, {windows}{hold}; rad or m, N m or N"
         )?;
         let columns = std::iter::once(("identification", self.train));
         let columns = columns.chain(self.validation.map(|judged| ("validation", judged)));

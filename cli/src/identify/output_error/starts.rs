@@ -105,11 +105,11 @@ pub(super) fn search(
         searches += u32::from(iterate.simulations == 1);
         let of_which = if begins {
             format!(
-                " of part {} of the search, which has other windows or weighs joints by the errors so far",
+                " of part {} of the search, with other windows or joints weighted by the errors so far",
                 iterate.stage + 1
             )
         } else if iterate.simulations == 1 && searches > 1 {
-            format!(" of search {searches}, as the one before it has not come down to the noise")
+            format!(" of search {searches}, as the one before did not reach the noise")
         } else {
             String::new()
         };
@@ -127,7 +127,7 @@ pub(super) fn search(
         let begins = iterate.simulations == 1;
         begun += u32::from(begins);
         if begins || progress.is_live() {
-            let what = format!("looking from start {begun} of {}", starts.len());
+            let what = format!("searching from start {begun} of {}", starts.len());
             let done = f64::from(begun) - 1.0 + iterate.done;
             progress.part(&what, done / starts.len() as f64);
         }

@@ -67,8 +67,7 @@ pub(super) fn said(gravity: [f64; 3]) -> [String; 2] {
     [
         format!("gravity along [{x}, {y}, {z}]"),
         format!(
-            "how does the arm stand, or hang, and where is the zero of its first joint? The spec has gravity in the frame of the base: \
-             `gravity = [{x}, {y}, {z}];`"
+            "how is the arm mounted, and where is the zero of its first joint? Gravity is in the frame of the base: `gravity = [{x}, {y}, {z}];`"
         ),
     ]
 }

@@ -80,10 +80,10 @@ impl Units {
         let first = which.first().map_or(1, |joint| joint + 1);
         let line = format!("`log {{ q = \"q{first}\": {name}, ..; }}`");
         let as_read = if self.read.name == RADIANS.name {
-            format!("Logs are in rad, or as the spec says: {line}")
+            format!("Logs are in rad unless the spec says otherwise: {line}")
         } else {
             format!(
-                "They are read as if the spec, a robot-model.toml or a line of units had them in {}: {line}, or `unit = \"{name}\"` in the settings",
+                "The spec, a robot-model.toml or a line of units says {}; write {line}, or `unit = \"{name}\"` in the settings",
                 self.read.plural
             )
         };

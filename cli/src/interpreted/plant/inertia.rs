@@ -16,8 +16,8 @@ impl InterpretedPlant {
             Some(&joint) => {
                 let model = &self.compiled.model;
                 Err(Error::Argument(format!(
-                    "{}: the motor of joint {name} is parted from its link and has no inertia; declare `motor_inertia on {name}` with \
-                     `ia` above 0",
+                    "{}: a spring separates the motor of joint {name} from its link, but the motor has no inertia; declare `motor_inertia \
+                     on {name}` with `ia` above 0",
                     model.source,
                     name = model.joints[joint].name
                 )))

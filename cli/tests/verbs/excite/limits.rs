@@ -92,18 +92,18 @@ fn links_stay_in_their_room() {
         ),
         (
             r#"{"balls": [], "box": {"low": [0, 0, 0], "high": [1, 0, 1]}}"#,
-            "no inside",
+            "the box is empty",
         ),
         (
             r#"{"balls": [{"link": "lower", "radius": 0.1}]}"#,
-            "it keeps nothing",
+            "it limits nothing",
         ),
         (
             r#"{"balls": [{"link": "lower", "radius": 0.1}], "apart": -1}"#,
-            "`apart` is a distance",
+            "`apart` must be a distance",
         ),
         (r#"{"bals": []}"#, "bals"),
-        ("{", "bad.json:1:1: it is no JSON"),
+        ("{", "bad.json:1:1: it is not JSON"),
         (
             r#"{"balls": [{"link": "lower"}]}"#,
             "`balls[0]`: missing field `radius`; write",

@@ -161,6 +161,6 @@ fn columns_of_other_parameters_are_counted() {
     let refuse = |chosen: &str| {
         folder.refuse(&[&ARM[..], &SMALL, &["--out", "n.csv", "--columns", chosen]].concat())
     };
-    assert!(refuse(&twice).contains("no motion tells these parameters apart"));
+    assert!(refuse(&twice).contains("no motion separates these parameters"));
     assert!(refuse(&rigid("lower.mass")).contains("no standard parameter `lower.mass`"));
 }

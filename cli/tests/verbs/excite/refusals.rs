@@ -13,7 +13,7 @@ fn what_leaves_no_design_is_told() {
     };
     for (arguments, word) in [
         (["--noise", "1,2,3"], "3 numbers, the arm 2 joints"),
-        (["--noise", "0"], "a standard deviation is positive"),
+        (["--noise", "0"], "a positive standard deviation"),
         (["--budget", "0"], "a positive number of seconds"),
         (["--rate", "0"], "a rate in Hz"),
         (["--rate", "NaN"], "a rate in Hz"),
@@ -26,8 +26,8 @@ fn what_leaves_no_design_is_told() {
             "add `--criterion condition`",
         ),
         (["--json", "arm.robot"], "same file as the input"),
-        (["--acceleration", "5"], "says one for each"),
-        (["--acceleration", "0"], "a limit is positive"),
+        (["--acceleration", "5"], "has one for each"),
+        (["--acceleration", "0"], "a limit must be positive"),
     ] {
         let said = refused(&arguments);
         assert!(said.contains(word), "{arguments:?}: {said}");
@@ -56,7 +56,7 @@ fn what_leaves_no_design_is_told() {
         &CART.replace("link = cart;", "link = cart; velocity = 1;"),
     );
     let said = folder.refuse(&["excite", "slide.robot", "--out", "o.csv"]);
-    assert!(said.contains("slides without position limits"), "{said}");
+    assert!(said.contains("has no position limits"), "{said}");
     let still = ["--period", "0.001", "--starts", "1", "--budget", "1"];
     let said = folder.refuse(&[&["excite", "arm.robot", "--out", "o.csv"], &still[..]].concat());
     assert!(said.contains("the parameters from each other"), "{said}");

@@ -74,7 +74,7 @@ fn an_effect_that_the_arm_imitates_is_told() {
     let out = ["--out", "out.csv"];
     let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &out].concat());
     assert!(
-        said.contains("from what the other one and the arm's own parameters imitate"),
+        said.contains("from the other one together with the arm's parameters"),
         "{said}"
     );
 }
@@ -192,7 +192,7 @@ fn states_of_more_than_the_motion_are_left_out() {
         let files = ["--out", "out.csv", "--budget", "1e-9"];
         let ran = folder.run(&[&run[..], &SMALL, &files].concat());
         assert_eq!(ran.code, Some(0), "{name}: {}", ran.stderr);
-        let note = format!("not designed for `lower.{name}.k`");
+        let note = format!("the design ignores `lower.{name}.k`");
         assert!(ran.stderr.contains(&note), "{name}: {}", ran.stderr);
     }
     // Measured torque of a plain design, below the limit at which the motor saturates.
@@ -202,7 +202,7 @@ fn states_of_more_than_the_motion_are_left_out() {
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert!(
         ran.stderr
-            .contains("not designed for `upper.torque_saturation.share`"),
+            .contains("the design ignores `upper.torque_saturation.share`"),
         "{}",
         ran.stderr
     );
@@ -226,7 +226,10 @@ fn states_that_do_not_settle_are_refused() {
             "cubic_viscous on lower",
         ];
         let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &["--out", "out.csv"]].concat());
-        assert!(said.contains("`lower.winder.z` does not settle"), "{said}");
+        assert!(
+            said.contains("`lower.winder.z` does not become periodic"),
+            "{said}"
+        );
     }
 }
 
@@ -275,7 +278,7 @@ fn rivals_that_are_none_are_told() {
         (
             "backlash(half_gap = 0.001) on lower",
             cubic,
-            "moves links along a motion",
+            "displaces links",
         ),
         (
             "encoder_offset on lower",
@@ -285,26 +288,30 @@ fn rivals_that_are_none_are_told() {
         (
             "quadratic_viscous on lower: c = 0",
             cubic,
-            "one has no size",
+            "one size is missing",
         ),
         (
             "quadratic_viscous on lower: k = 1",
             cubic,
-            "has `c`: say what each",
+            "has `c`: give the expected value of each",
         ),
-        (cubic, cubic, "nothing tells an effect from itself"),
+        (cubic, cubic, "give two different effects"),
         (
             "encoder_offset on lower: offset = 0.01",
             cubic,
-            "say its shapes",
+            "give its shapes",
         ),
-        ("stribeck on lower:", cubic, "is no effect with its size"),
+        (
+            "stribeck on lower:",
+            cubic,
+            "is not an effect with its size",
+        ),
         ("sticktion on lower: fs = 1", cubic, "sticktion"),
         ("quadratic_viscous on wrist: c = 1", cubic, "wrist"),
         (
             "parameter_drift on lower: fv = 1",
             cubic,
-            "follows from more than the motion",
+            "depends on more than the motion",
         ),
     ] {
         let arguments = ["--out", "out.csv", "--separate", first, "--from", second];

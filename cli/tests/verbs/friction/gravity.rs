@@ -135,7 +135,7 @@ fn short_ways_do_not_tell_gravity() {
         let near = ["friction", "two.robot", log, "--joint", "lo"];
         let said = folder.refuse(&near);
         assert!(
-            said.contains("cannot be told from its friction: of 2 columns"),
+            said.contains("cannot be separated from friction: of 2 columns"),
             "{said}"
         );
         assert!(said.contains("--parameters"), "{said}");

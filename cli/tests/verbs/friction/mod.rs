@@ -83,7 +83,7 @@ fn the_result_starts_output_error() {
         .expect("a body");
     folder.write("rod.robot", &spec.replace(body, ""));
     let run = folder.run(&[&identify[..], &start].concat());
-    let told = "f.json: no value for 3 parameters: those of `--method wls` on the same logs for";
+    let told = "f.json: no value for 3 parameters: the value of `--method wls` on the same logs is used for";
     assert!(
         run.code == Some(0) && run.stderr.contains(told),
         "{}",
@@ -120,9 +120,9 @@ fn logs_and_joints_that_do_not_fit_are_refused() {
         ])
     };
     assert!(said("slow.csv", "wrist").contains("its joints are `elbow`"));
-    assert!(said("swing.csv", "elbow").contains("nowhere moves at one constant speed"));
+    assert!(said("swing.csv", "elbow").contains("never moves at a constant speed"));
     let few = said("slow.csv", "elbow");
-    assert!(few.contains("takes 4 speeds, and there are 1"), "{few}");
+    assert!(few.contains("needs 4 speeds, but there are 1"), "{few}");
     folder.write("part.json", r#"{"elbow.m": 0.5}"#);
     let part = [
         "friction",

@@ -63,7 +63,7 @@ fn what_falls_freely_needs_a_start() {
     assert_ne!(run.code, Some(0));
     let said = &run.stderr;
     assert!(
-        said.contains("of an arm that is let go give `--start`"),
+        said.contains("if the arm falls freely, give `--start`"),
         "{said}"
     );
     assert!(!said.contains("does the arm move"), "{said}");

@@ -61,8 +61,8 @@ fn an_inertia_that_hangs_on_what_torque_does_between_samples_is_noted() {
         "--torque torque.csv --rate 300 --log-rate 30 --position-noise 2e-3",
     );
     let said = notes(&folder, &[]);
-    let (_, values) = said.split_once(" and there is J ").expect("a note");
-    let [other, own] = [0, 2].map(|k| values.split([' ', ':']).nth(k));
+    let (_, values) = said.split_once(" larger, with J ").expect("a note");
+    let [other, own] = [0, 3].map(|k| values.split([' ', ':']).nth(k));
     let number = |text: Option<&str>| text.and_then(|text| text.parse::<f64>().ok());
     let (other, own) = (
         number(other).expect("a number"),
@@ -73,7 +73,7 @@ fn an_inertia_that_hangs_on_what_torque_does_between_samples_is_noted() {
         "{said}"
     );
     assert!(
-        said.contains("with `--hold sample` positions are off by"),
+        said.contains("with `--hold sample` position errors are"),
         "{said}"
     );
     // Who has said it is not asked.
@@ -88,7 +88,7 @@ fn a_hold_that_is_asked_for_and_fits_worse_is_noted() {
         &folder,
         "--rate 100 --log-rate 100 --frequency 15 --position-noise 1e-5",
     );
-    let told = "torque is held from each sample to the next, as `--hold` says; with `--hold mean` positions are off by ";
+    let told = "torque is held from each sample to the next, as `--hold` says; with `--hold mean` position errors are ";
     let said = notes(&folder, &["--hold", "sample"]);
     assert!(said.contains(told), "{said}");
     let said = notes(&folder, &["--hold", "mean"]);

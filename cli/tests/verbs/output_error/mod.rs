@@ -105,8 +105,8 @@ fn a_spring_behind_a_motor_is_found_with_both_of_its_ends() {
     let options = ["--method", "output-error", "--start", "fit.json"];
     let run = folder.run(&[&lumped[..], &options, &["--window", "2"]].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let said = "note: fit.json: springs part what is one sum there (`a.mxr`, `a.izzr`); the search starts from the spec's values of \
-                `a.izz`, `a.m`, and from what is left of each sum for `a.motor_inertia.ia`, `a.mx`";
+    let said = "note: fit.json: springs separate parameters that are one sum there (`a.mxr`, `a.izzr`); the search starts from the spec's \
+                values of `a.izz`, `a.m`, and from the remainder of each sum for `a.motor_inertia.ia`, `a.mx`";
     assert!(run.stderr.contains(said), "{}", run.stderr);
     let report = json(&folder.read("both.json"));
     // It begins at three times the stiffness, and comes near along a valley.
@@ -140,8 +140,9 @@ fn a_motor_has_a_share_of_a_sum_that_is_less_than_the_specs_link() {
     let options = ["--method", "output-error", "--start", "fit.json"];
     let run = folder.run(&[&basics[..], &options].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let said = "note: fit.json: springs part what is one sum there (`a.mxr`, `a.izzr`); the search starts from a share of the spec's values of \
-                `a.izz`, `a.m`, which would leave a motor nothing, and from what is left of each sum for `a.motor_inertia.ia`, `a.mx`\n";
+    let said = "note: fit.json: springs separate parameters that are one sum there (`a.mxr`, `a.izzr`); the search starts from \
+                scaled-down spec values of `a.izz`, `a.m`, as the full ones would leave no motor inertia, and from the remainder of each sum for \
+                `a.motor_inertia.ia`, `a.mx`\n";
     assert!(run.stderr.contains(said), "{}", run.stderr);
     let report = json(&folder.read("both.json"));
     let [found, _] = value(&report, "a.motor_inertia.ia").expect("a value");
@@ -164,7 +165,7 @@ fn what_moves_the_arm_beside_its_model_is_noted() {
     folder.write("values.json", values);
     let swing = |t: f64| 0.6 * (2.0 * t).sin() + 0.3 * (5.0 * t).cos();
     folder.write("wanted.csv", &wanted(3.0, &[&swing]));
-    let note = "simulated positions are off by more than the noise of the logs";
+    let note = "errors of simulated positions exceed the noise of the logs";
     for (noise, is_noted) in [("0", false), ("0.2", true)] {
         let motion = [
             "--trajectory",
@@ -218,7 +219,7 @@ fn what_moves_the_arm_beside_its_model_is_noted() {
     ]);
     assert!(
         run.stderr
-            .contains("below zero by more than three deviations"),
+            .contains("below zero by more than three standard deviations"),
         "{}",
         run.stderr
     );

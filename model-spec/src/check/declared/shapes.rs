@@ -52,7 +52,7 @@ pub(super) fn check_shapes(
                 format!("is {number}"),
             )
             .help(format!(
-                "write {wanted}; without a value it is looked for in {} .. {}",
+                "write {wanted}; without a value it is identified within {} .. {}",
                 shape.low, shape.high
             )))
         });
@@ -112,13 +112,13 @@ fn without_unit(
     Diagnostic::new(
         span,
         format!(
-            "`{name}` of effect `{}` has no unit that its definition says",
+            "`{name}` of effect `{}` has no unit in its definition",
             declared.name
         ),
         "has a unit",
     )
     .help(format!(
-        "write the number alone, in SI units: `{name} = {number}`; where the comment of a shape ends in its unit, as `, rad/s.`, values may have one"
+        "write the number alone, in SI units: `{name} = {number}`; values may have a unit only if the shape's comment ends in one, such as `, rad/s.`"
     ))
 }
 

@@ -124,7 +124,7 @@ pub(super) fn check_parameters(
         let unit = parameter.unit.as_ref();
         let unit = unit.map(|unit| unit_of(&parameter.name, unit));
         let unit = unit.and_then(&mut found);
-        let help = "write its value in numbers; where it is no unknown of its own, use a `let`";
+        let help = "write its value in numbers, or use a `let` if it depends on other names";
         let nominal = parameter.nominal.as_ref();
         let nominal = nominal.map(|expr| number_of(expr, robot, help));
         let nominal = nominal.and_then(&mut found);
@@ -235,7 +235,7 @@ fn two_dimensions(parameter: &ast::Parameter, found: &str) -> Diagnostic {
         format!("the value of `{}` does not have its unit", parameter.name),
         format!("this is {found}"),
     )
-    .help("write the value in the unit behind the name, or leave that unit away")
+    .help("write the value in the unit after the name, or remove that unit")
 }
 
 pub(super) fn check_constants(
@@ -246,7 +246,7 @@ pub(super) fn check_constants(
     let mut constants = Vec::new();
     for constant in &robot.energies.constants {
         let name = &constant.name;
-        let help = format!("write `let {name} = ..;`: a `let` may be made of other names");
+        let help = format!("write `let {name} = ..;`: a `let` may use other names");
         match number_of(&constant.value, robot, &help) {
             Ok(quantity) => constants.push(Constant {
                 name: constant.name.to_string(),

@@ -312,7 +312,7 @@ impl Walk<'_> {
         Fault::new(
             self.statement,
             at(0),
-            "terms of different dimensions do not add",
+            "terms of different dimensions cannot be added",
             format!("this is {}", self.inference.reduced(left).describe()),
             "check which factor one of them lacks; a plain number in a product has no dimension, so write the unit of \
              every constant, as in `g = 9.81 m/s^2`",

@@ -148,12 +148,12 @@ fn check_not_a_chain(robot: &Robot, errors: &mut Errors) {
         errors.push(
             Diagnostic::new(
                 chain.span(),
-                format!("robot `{}` says its energies and is a chain too", robot.name),
+                format!("robot `{}` has both energies and a chain", robot.name),
                 "belongs to a chain",
             )
             .help(
-                "describe the arm by joints and links, or by `coordinates`, `kinetic` and `potential`; gravity of energies is a \
-                 constant of yours, such as `constants g = 9.81 m/s^2;`",
+                "describe the arm by joints and links, or by `coordinates`, `kinetic` and `potential`; with energies, define gravity as a \
+                 constant, such as `constants g = 9.81 m/s^2;`",
             ),
         );
     }
@@ -196,7 +196,7 @@ fn check_names(robot: &Robot, errors: &mut Errors) {
             errors.push(
                 Diagnostic::new(
                     name.span(),
-                    format!("`{name}` is how equations write a rate of `{coordinate}`"),
+                    format!("equations write a rate of `{coordinate}` as `{name}`"),
                     "",
                 )
                 .help(format!(
@@ -227,11 +227,11 @@ fn check_present<'a>(
             errors.push(
                 Diagnostic::new(
                     robot.name.span(),
-                    format!("the robot does not say its {key} energy"),
+                    format!("the robot does not define its {key} energy"),
                     format!("no `{key}`"),
                 )
                 .help(format!(
-                    "write `{key} = ..;`, in joules; 0 where there is none"
+                    "write `{key} = ..;`, in joules; 0 if there is none"
                 )),
             );
             None

@@ -63,7 +63,7 @@ impl Rules<'_> {
                 statement,
                 Vec::new(),
                 "the position of a point has an unknown parameter",
-                "not known where it is",
+                "its position is unknown",
                 "make the lengths constants",
             ));
         }

@@ -63,9 +63,9 @@ pub(super) fn check(column: &LogColumn, wanted: &[Dimension]) -> Result<(), Diag
     let meant = scaled.or_else(|| other.map(|(_, meant)| (*meant).to_owned()));
     let list = suggest::list(known.iter().copied());
     let help = match meant.or_else(nearest) {
-        Some(meant) => format!(
-            "write `{meant}`; units that may stand here are {list}, and numbers times these"
-        ),
+        Some(meant) => {
+            format!("write `{meant}`; allowed units are {list}, and numbers times these")
+        }
         None => format!("write one of {list}, or a number times one of these"),
     };
     Err(Diagnostic::new(name.span(), format!("unknown unit `{word}`"), "not a unit").help(help))

@@ -113,7 +113,7 @@ fn what_does_not_vary_is_refused() {
     let [current, velocity, voltage] = log(0.0, 1);
     let stands = vec![2.0; current.len()];
     let error = MotorVoltage::fit(&times(), &stands, &velocity, &voltage).unwrap_err();
-    assert!(error.to_string().starts_with("the current is the same"));
+    assert!(error.to_string().starts_with("the current is constant"));
     let error = MotorVoltage::fit(&times(), &current, &stands, &voltage).unwrap_err();
     assert!(error.to_string().starts_with("the velocity is the same"));
     let twice: Vec<f64> = current.iter().map(|i| 2.0 * i + 1.0).collect();

@@ -135,7 +135,10 @@ fn other_equations_are_refused_and_rounding_is_none() {
     assert_eq!(change([1e-12, -1e-12]), Ok(()));
     for other in [[1e-6, 0.0], [0.0, 1e-6], [6.0, 0.0]] {
         let refused = change(other).expect_err("another arm");
-        assert!(refused.to_string().contains("other equations"), "{refused}");
+        assert!(
+            refused.to_string().contains("different equations"),
+            "{refused}"
+        );
     }
     let mut short = empty();
     short.equations.pop();

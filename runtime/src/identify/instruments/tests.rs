@@ -112,10 +112,7 @@ fn a_verdict_says_how_much_a_difference_matters() {
         assert!(words.iter().all(|word| said.contains(word)), "{said}");
     };
     about(&said(0.3, 0.1), ["agree", "x differs most"]);
-    about(
-        &said(0.001, 0.007),
-        ["matters little", "and 0.07 of its own"],
-    );
+    about(&said(0.001, 0.007), ["is harmless", "and 0.07 of its own"]);
     about(&said(0.001, 0.2), ["they disagree", "and 2.00 of its own"]);
 }
 

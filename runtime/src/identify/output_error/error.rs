@@ -10,7 +10,7 @@ use crate::simulate::SimulateError;
 pub enum OutputErrorError {
     /// The arm cannot be simulated where the search starts.
     #[error(
-        "{log}: with the parameters that the search starts from: {error}; start nearer to the arm, cut the log into windows, or simulate its controller too"
+        "{log}: with the start parameters: {error}; start nearer to the arm, cut the log into windows, or simulate its controller too"
     )]
     Start {
         /// The log.
@@ -20,7 +20,7 @@ pub enum OutputErrorError {
     },
     /// An arm with given parameters does not stay near its log.
     #[error(
-        "{log}: with these parameters the simulated arm runs away from it: {error}; windows that are shorter keep it near"
+        "{log}: with these parameters the simulated arm diverges from it: {error}; use shorter windows"
     )]
     Away {
         /// The log.
@@ -29,7 +29,7 @@ pub enum OutputErrorError {
         error: SimulateError,
     },
     /// The first part of a search has led no deeper than another search did, see [`OutputError::below`](super::OutputError::below).
-    #[error("the search has led to a cost of {cost:.6e}, no deeper than {below:.6e}")]
+    #[error("the search reached a cost of {cost:.6e}, not below {below:.6e}")]
     NotDeeper {
         /// Where it has led.
         cost: f64,
@@ -37,15 +37,13 @@ pub enum OutputErrorError {
         below: f64,
     },
     /// Positions are the same all along.
-    #[error(
-        "no joint moves in these logs, so that simulated positions say nothing of the arm: move it"
-    )]
+    #[error("no joint moves in these logs, so simulated positions determine nothing: move the arm")]
     Still,
     /// A controller remembers across windows.
-    #[error("a controller is simulated along whole logs; leave the window out")]
+    #[error("a controller is simulated along whole logs; remove the window")]
     WindowedLaw,
     /// Starts that are held are those of whole logs.
-    #[error("starts that are held are those of whole logs; leave the window out")]
+    #[error("held starts belong to whole logs; remove the window")]
     WindowedStarts,
     /// Parts have other sizes than the arm.
     #[error("{what}: {found} for an arm with {expected}")]

@@ -142,7 +142,7 @@ impl std::fmt::Display for Direction {
             .collect();
         write!(
             f,
-            "{how}: moving together, in shares of themselves, {} (relative singular value {:.1e})",
+            "{how}: changing together, relative to their values, {} (relative singular value {:.1e})",
             shares.join(", "),
             self.singular
         )

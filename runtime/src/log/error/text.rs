@@ -10,8 +10,7 @@ fn to_text(source_name: &str, byte: u8) -> String {
         0 => "utf16",
         0x80.. => "latin1",
         _ => {
-            return "such a byte is in no text at all: name the file that has the numbers"
-                .to_owned();
+            return "no text contains such a byte: name the file that has the numbers".to_owned();
         }
     };
     format!(
@@ -47,7 +46,7 @@ pub enum TextError {
     },
     /// The header has one field.
     #[error(
-        "{source_name}:{line}: the header `{header}` is one column; write one name a column, separated by `,`, `;`, `|`, tabs or blanks"
+        "{source_name}:{line}: the header `{header}` is one column; write one name per column, separated by `,`, `;`, `|`, tabs or blanks"
     )]
     Separator {
         /// The file.
@@ -59,8 +58,8 @@ pub enum TextError {
     },
     /// Lines above the header that may be columns, too.
     #[error(
-        "{source_name}:{line}: the line may name the columns as well as line {header} above the rows; remove the lines above that, \
-         or begin each with `#`"
+        "{source_name}:{line}: both this line and line {header} above the rows may be the header; remove the lines above the header, or \
+         begin each with `#`"
     )]
     Above {
         /// The file.
@@ -72,8 +71,8 @@ pub enum TextError {
     },
     /// Lines between the header and the numbers that are not one of units.
     #[error(
-        "{source_name}:{line}: the names of columns are in line {header}, and only one line of units may stand between them and the numbers; \
-         remove the others, such as this one"
+        "{source_name}:{line}: the header is line {header}, and only one line of units may follow it before the numbers; remove the others, \
+         such as this one"
     )]
     Between {
         /// The file.
@@ -85,7 +84,7 @@ pub enum TextError {
     },
     /// Bytes that are no text.
     #[error(
-        "{source_name}:{line}: byte 0x{byte:02x} in `{text}` is no UTF-8 text; {}",
+        "{source_name}:{line}: byte 0x{byte:02x} in `{text}` is not UTF-8 text; {}",
         to_text(source_name, *.byte)
     )]
     NotText {
@@ -100,8 +99,8 @@ pub enum TextError {
     },
     /// A line of words below the names that are no units of their columns.
     #[error(
-        "{source_name}:{line}: the line below the names has no numbers, and as a unit `{text}` is none of column `{}`; write one of {}, or remove the \
-         line and say in the spec's `log`, or in its settings, what the columns are in{hint}",
+        "{source_name}:{line}: the line below the header has no numbers, and `{text}` is not a unit of column `{}`; write one of {}, or \
+         remove the line and give units in the spec's `log`, or in its settings{hint}",
         field(column),
         list(known)
     )]
@@ -121,7 +120,7 @@ pub enum TextError {
     },
     /// A decimal comma beside decimal points, or the other way round.
     #[error(
-        "{source_name}:{line}: `{text}` in column `{}` is not a number: decimals above have a {mark}; write all with a point",
+        "{source_name}:{line}: `{text}` in column `{}` is not a number: decimals above use a {mark}; write all with a point",
         field(column)
     )]
     MixedDecimals {

@@ -200,7 +200,7 @@ impl fmt::Display for Stretches {
         } = self;
         write!(
             f,
-            "{}, {samples} samples in all, {longest:.3} s at most; they were replaced by straight lines, and nothing is fitted around those \
+            "{}, {samples} samples in all, {longest:.3} s at most; they were replaced by interpolation, and nothing is fitted around those \
              of more than 10 ms",
             how_often(*times, *first)
         )

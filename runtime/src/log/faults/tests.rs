@@ -146,7 +146,7 @@ fn velocities_late_in_degrees_or_backwards_are_told() {
     for (factor, word) in [
         (57.29578, "as degrees are to radians"),
         (9.5493, "as rpm are to rad/s"),
-        (-1.0, "the other way round"),
+        (-1.0, "with the opposite sign"),
     ] {
         let mut wrong = log.clone();
         wrong.dq[0].iter_mut().for_each(|dq| *dq *= factor);

@@ -152,7 +152,7 @@ pub(super) fn unit(factor: f64) -> &'static str {
         (0.166_667, ", as rpm are to degrees per second"),
     ];
     if (factor + 1.0).abs() < 0.1 {
-        return ", the other way round";
+        return ", with the opposite sign";
     }
     let named = NAMED
         .iter()

@@ -13,10 +13,10 @@ impl fmt::Display for Fault {
                 first,
             } => write!(
                 f,
-                "{channel}: {samples} samples are far from both their neighbors, the first at {first:.3} s; they were replaced by straight lines"
+                "{channel}: {samples} samples are far from both neighbors, the first at {first:.3} s; they were replaced by interpolation"
             ),
             Self::Held { channel, at } => {
-                write!(f, "{channel} stands still while the arm moves on, {at}")
+                write!(f, "{channel} is frozen while the arm moves, {at}")
             }
             Self::Dropouts { channel, at } => {
                 write!(f, "{channel} jumps to a constant and back, {at}")
@@ -30,7 +30,7 @@ impl fmt::Display for Fault {
                 first,
             } => write!(
                 f,
-                "{channel} begins its turn again {}; whole turns were taken out",
+                "{channel} wraps around {}; whole turns were removed",
                 how_often(*times, *first)
             ),
             Self::Slips {
@@ -40,14 +40,14 @@ impl fmt::Display for Fault {
                 largest,
             } => write!(
                 f,
-                "{channel} jumps and stays {}, by {largest:.4}{}: an encoder slipped or was set anew; nothing is fitted around it, and \
-                 positions behind it were moved back by it, as an arm does not jump: if those before it are wrong, leave them out of the log",
+                "{channel} jumps and stays {}, by {largest:.4}{}: an encoder slipped or was reset; nothing is fitted around the jump, and \
+                 positions after it were shifted back; if those before it are wrong, remove them from the log",
                 how_often(*times, *first),
                 if *times == 1 { "" } else { " at most" }
             ),
             Self::Coincident { samples, first } => write!(
                 f,
-                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
+                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; each pair was replaced by its mean"
             ),
             Self::Jitter { step, rms, largest } => write!(
                 f,
@@ -64,13 +64,13 @@ impl fmt::Display for Fault {
                 share,
             } => write!(
                 f,
-                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; `identify` leaves the joint's \
-                 samples there out unless `torque_saturation` is declared; log a motion that asks for less",
+                "{channel} is at its limit of {value:.4} for {:.1} % of the samples: the drive saturated; `identify` leaves out these \
+                 samples of the joint unless `torque_saturation` is declared; log a motion that needs less torque",
                 100.0 * share
             ),
             Self::VelocityLate { channel, delay } => write!(
                 f,
-                "{channel} is {:.4} s {} against the slope of the position; it is not used, velocities are computed from positions",
+                "{channel} is {:.4} s {} against the derivative of the position; it is not used, velocities are computed from positions",
                 delay.abs(),
                 late_or_early(*delay)
             ),
@@ -85,8 +85,8 @@ impl fmt::Display for Fault {
                 let (rest, way_out) = late.words();
                 write!(
                     f,
-                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {rest} are off by what makes up for that; its error is {:.0} % less without that: \
-                     {way_out}",
+                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {rest} are biased by that; correcting it reduces the \
+                     joint's error by {:.0} %: {way_out}",
                     delay.abs(),
                     late_or_early(*delay),
                     100.0 * gain
@@ -99,7 +99,7 @@ impl fmt::Display for Fault {
             ),
             Self::AtRest { channel, rms } => write!(
                 f,
-                "{channel} moves by no more than its noise of {rms:.1e} RMS: the joint stands still, and its mean stands for it"
+                "{channel} moves by no more than its noise of {rms:.1e} RMS: the joint is at rest, and its mean is used"
             ),
             Self::Constant { channel, value } => write!(
                 f,
@@ -112,7 +112,7 @@ impl fmt::Display for Fault {
 fn said_of_scale(f: &mut fmt::Formatter<'_>, channel: &str, factor: f64) -> fmt::Result {
     write!(
         f,
-        "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
+        "{channel} is {factor:.4} times the derivative of the position{}; it is not used, but check that position and torque are in SI units",
         velocity::unit(factor)
     )
 }
@@ -123,11 +123,11 @@ impl LateChannel {
         match self {
             Self::Torque => (
                 "the position, and values of friction and inertia",
-                "`time_delay;` among the effects finds one delay of all joints, up to 0.03 s, longer ones are to be taken out of the log",
+                "declare `time_delay;` in `effects` to identify one delay of all joints, up to 0.03 s; correct longer ones in the log",
             ),
             Self::Position => (
-                "all other channels, and values of all that depends on it",
-                "move the column by so much",
+                "all other channels, and all values that depend on it",
+                "shift the column by that time",
             ),
         }
     }

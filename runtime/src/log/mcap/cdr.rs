@@ -33,7 +33,7 @@ impl fmt::Display for Fault {
         match self {
             Self::Representation(kind) => write!(
                 f,
-                "its representation is 0x{kind:04x}, of those of CDR only the plain ones (0x0000, 0x0001, 0x0006, 0x0007) are read"
+                "its representation is 0x{kind:04x}, but only plain CDR (0x0000, 0x0001, 0x0006, 0x0007) is read"
             ),
             Self::Ends(what) => write!(f, "the message ends inside {what}"),
             Self::NoText(what) => write!(f, "{what} is not UTF-8 text"),
@@ -172,7 +172,7 @@ impl JointState {
 fn write_length(bytes: &mut Vec<u8>, length: usize) {
     bytes.resize(bytes.len().next_multiple_of(4), 0);
     let length =
-        u32::try_from(length).expect("no arm has as many joints, nor a name as many letters");
+        u32::try_from(length).expect("no arm has so many joints, and no name so many letters");
     bytes.extend(length.to_le_bytes());
 }
 

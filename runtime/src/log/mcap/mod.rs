@@ -334,7 +334,7 @@ fn guarded<T>(read: impl FnOnce() -> Result<T, McapError>) -> Result<T, McapErro
 fn damaged(source: &str, line: u64, error: &McapError) -> LogError {
     let reason = match error {
         McapError::UnexpectedEof => {
-            "the file breaks off, as where a recording was not closed; `mcap recover` makes a whole one of it".to_owned()
+            "the file is truncated, as when a recording was not closed; repair it with `mcap recover`".to_owned()
         }
         McapError::Parse(_) => format!("a record cannot be read; {DAMAGED}"),
         McapError::Io(error) => error.to_string(),

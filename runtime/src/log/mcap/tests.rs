@@ -235,13 +235,12 @@ fn joints_that_are_not_there_are_told() {
     let bytes = arm(WriteOptions::new());
     assert_eq!(
         said(&bytes, &columns(&["shoulder", "wrist"])),
-        "run.mcap: no message on `/joint_states` has the joint `wrist`; joints there are `elbow`, `shoulder`, `finger`; call the \
-         spec's joints as they are called there, or name theirs in the spec's `log`: `q = \"NAME.position\", ..; tau = \
-         \"NAME.effort\", ..;`"
+        "run.mcap: no message on `/joint_states` has the joint `wrist`; joints there are `elbow`, `shoulder`, `finger`; rename the spec's \
+         joints accordingly, or name the bag's joints in the spec's `log`: `q = \"NAME.position\", ..; tau = \"NAME.effort\", ..;`"
     );
     assert_eq!(
         said(&bytes, &Columns::standard(2)),
-        "run.mcap: it has joints by name, and none are given; name them in `Columns::joints`"
+        "run.mcap: it has joints by name, but no names are given; name them in `Columns::joints`"
     );
     // A log block that has its own names for CSV files does not stand in the way; one that names the bag's is followed.
     let column = |name: &str, unit: f64| Column {
@@ -310,7 +309,7 @@ fn messages_of_other_joints_are_passed_over_and_lists_that_lack_numbers_are_told
     assert_eq!(
         said(&never, &elbow),
         "run.mcap:1: `NaN` in column `elbow.effort` is not finite; remove or repair the row; 1000 of 1000 rows have such a field, too many \
-         to be filled in"
+         to interpolate"
     );
     let once = with(&|k, message| {
         if k == 30 {
@@ -332,7 +331,7 @@ fn messages_of_other_joints_are_passed_over_and_lists_that_lack_numbers_are_told
         }
     });
     assert!(
-        said(&back, &elbow).starts_with("run.mcap:501: time does not rise"),
+        said(&back, &elbow).starts_with("run.mcap:501: time does not increase"),
         "{}",
         said(&back, &elbow)
     );
@@ -361,7 +360,7 @@ fn damaged_bags_are_refused() {
             let said = said(&sound[..cut], &elbow);
             assert!(said.starts_with("run.mcap:"), "{cut}: {said}");
         }
-        assert!(said(&sound[..sound.len() / 2], &elbow).contains("the file breaks off"));
+        assert!(said(&sound[..sound.len() / 2], &elbow).contains("the file is truncated"));
         let mut refused = 0;
         let mut tried = 0;
         for place in (8..sound.len()).step_by(step) {

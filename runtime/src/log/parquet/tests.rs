@@ -128,7 +128,7 @@ fn columns_of_text_and_half_files_are_told() {
     of_text.tau[0].name = "mode".to_owned();
     assert_eq!(
         said(&sound, &of_text),
-        "monday:1: cannot read the log: column `mode` holds no whole or real numbers: write it as a column of doubles"
+        "monday:1: cannot read the log: column `mode` is not numeric: write it as a column of doubles"
     );
     let half = said(&sound[..sound.len() / 2], &parquet_columns());
     assert!(
@@ -171,7 +171,7 @@ fn rows_that_are_not_there_are_refused() {
         (40_000_000, "a column of 400 rows in a group of 40000000"),
         (
             399,
-            "a page that is said to have 400 values, where 399 are the most",
+            "a page claims to have 400 values, but the most are 399",
         ),
         (-1, "a group of less than no rows"),
     ] {
@@ -186,10 +186,7 @@ fn rows_that_are_not_there_are_refused() {
     let sound = claiming(400);
     let refused = Log::from_reader_as("bomb", sound.as_slice(), &parquet_columns());
     let said = refused.expect_err("the second has 600").to_string();
-    assert!(
-        said.contains("600 values, where 400 are the most"),
-        "{said}"
-    );
+    assert!(said.contains("600 values, but the most are 400"), "{said}");
 }
 
 /// A table as wide as its schema says.
@@ -206,7 +203,7 @@ fn more_columns_than_an_arm_has_are_refused() {
     let refused = Log::from_reader_as("wide", bytes.as_slice(), &parquet_columns());
     assert_eq!(
         refused.expect_err("refused").to_string(),
-        "wide:1: the log has 10001 columns, more than 10000; leave out those that are no channels of the arm"
+        "wide:1: the log has 10001 columns, more than 10000; remove those that are not channels of the arm"
     );
 }
 

@@ -105,7 +105,7 @@ fn a_row_that_is_there_twice_counts_once() {
     rows[50] = "0.098,0.5,7".to_owned();
     let error = read(&text("time,q1,tau1", &rows), 1).expect_err("which of them is it?");
     assert!(
-        error.to_string().contains(":52: time does not rise"),
+        error.to_string().contains(":52: time does not increase"),
         "{error}"
     );
 }

@@ -41,7 +41,7 @@ fn columns_may_have_other_names_and_units() {
     assert_eq!(
         report,
         [
-            "columns that hold no numbers are left out: `mode`",
+            "columns without numbers are ignored: `mode`",
             "extra channels: `temperature`, `q9`"
         ]
     );

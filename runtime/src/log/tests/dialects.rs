@@ -28,7 +28,7 @@ fn decimal_commas_are_points_where_columns_are_separated_otherwise() {
     mixed[20] = "0.2;1,234;40".to_owned();
     assert_eq!(
         refusal(&text("time;q1;tau1", &mixed), 1),
-        "monday.csv:22: `1,234` in column `q1` is not a number: decimals above have a point; write all with a point"
+        "monday.csv:22: `1,234` in column `q1` is not a number: decimals above use a point; write all with a point"
     );
     let mut commas: Vec<String> = rows(40)
         .iter()
@@ -37,7 +37,7 @@ fn decimal_commas_are_points_where_columns_are_separated_otherwise() {
     commas[20] = "0,2;1.234;40".to_owned();
     assert_eq!(
         refusal(&text("time;q1;tau1", &commas), 1),
-        "monday.csv:22: `1.234` in column `q1` is not a number: decimals above have a comma; write all with a point"
+        "monday.csv:22: `1.234` in column `q1` is not a number: decimals above use a comma; write all with a point"
     );
 }
 
@@ -64,7 +64,7 @@ fn separators_at_ends_of_lines_are_no_columns() {
     );
     assert_eq!(
         refusal(&text("time,q1,tau1,", &other), 1),
-        "monday.csv:5: column 4 has no name; name every column of numbers; only one in front that counts the rows may have none"
+        "monday.csv:5: column 4 has no name; name every column of numbers; only a first column that counts the rows may have none"
     );
 }
 
@@ -85,7 +85,7 @@ fn row_numbers_of_pandas_are_no_column() {
         assert_same(&log, &plain());
         assert_eq!(
             notes(&log),
-            ["the first column has no name and counts the rows: it is left out"]
+            ["the first column has no name and counts the rows: it is ignored"]
         );
     }
     for (number, line) in [
@@ -147,7 +147,7 @@ fn units_below_the_names_are_read() {
     };
     assert_eq!(
         own("s,deg,Nm"),
-        "line 2 says units: `time` in s are read so; `q1` in deg, of which settings say another unit: they hold, take out what is wrong"
+        "line 2 says units: `time` in s are read so; `q1` in deg, but settings give another unit, which is used; remove the wrong one"
     );
     assert_eq!(
         own("s,rad,Nm"),
@@ -165,7 +165,10 @@ fn units_below_the_names_are_read() {
     let amperes = read("s,rad,[A]").expect("a log").tau[0][7];
     assert!((amperes - plain().tau[0][7]).abs() < 1e-15);
     let refused = read("s,rad,Nm").expect_err("a torque").to_string();
-    assert!(refused.contains("wants a spec without it"), "{refused}");
+    assert!(
+        refused.contains("remove it for a log of torques"),
+        "{refused}"
+    );
     // Of plain numbers it says nothing.
     let mut columns = Columns::standard(1);
     columns.signals = vec![DriveSignal::Number];
@@ -174,15 +177,17 @@ fn units_below_the_names_are_read() {
     for (units, words) in [
         (
             "s,turns,Nm",
-            "monday.csv:2: the line below the names has no numbers, and as a unit `turns` is none of column `q1`; write one of `rad`, `deg`, `rev`, `m`, `cm`, `mm`, `um`, or remove the line",
+            "monday.csv:2: the line below the header has no numbers, and `turns` is not a unit of column `q1`; write one of `rad`, `deg`, \
+             `rev`, `m`, `cm`, `mm`, `um`, or remove the line",
         ),
         (
             "s,mm,Nm",
-            "as a unit `Nm` is none of column `tau1`; write one of `N`, `kN`, or",
+            "`Nm` is not a unit of column `tau1`; write one of `N`, `kN`, or",
         ),
         (
             "s,rad,A",
-            "as a unit `A` is none of column `tau1`; write one of `Nm`, or remove the line and say in the spec's `log`, or in its settings, what the columns are in (a current wants an `actuator_gain`",
+            "`A` is not a unit of column `tau1`; write one of `Nm`, or remove the line and give units in the spec's `log`, or in its \
+             settings (a current needs an `actuator_gain`",
         ),
     ] {
         let said = refusal(&with(units), 1);
@@ -214,7 +219,7 @@ fn blanks_and_bars_separate_columns() {
     assert_eq!(log(&text("time | q1 | tau1", &barred)), plain());
     assert_eq!(
         refusal(&text("time:q1:tau1", &rows(40)), 1),
-        "monday.csv:1: the header `time:q1:tau1` is one column; write one name a column, separated by `,`, `;`, `|`, tabs or blanks"
+        "monday.csv:1: the header `time:q1:tau1` is one column; write one name per column, separated by `,`, `;`, `|`, tabs or blanks"
     );
 }
 
@@ -242,8 +247,8 @@ fn utf16_behind_its_mark_is_read() {
     );
     assert_eq!(
         refused(b"time,q1,Winkel \xb0,tau1\n0,1,2,3\n"),
-        "monday.csv:1: byte 0xb0 in `Winkel \u{fffd}` is no UTF-8 text; save the log as CSV in UTF-8, or convert it: `iconv -f latin1 -t utf8 \
-         monday.csv > utf8.csv`"
+        "monday.csv:1: byte 0xb0 in `Winkel \u{fffd}` is not UTF-8 text; save the log as CSV in UTF-8, or convert it: `iconv -f latin1 -t \
+         utf8 monday.csv > utf8.csv`"
     );
 }
 

@@ -66,7 +66,7 @@ fn a_gap_in_another_unit_of_time_is_told_as_the_unit() {
         let said = said.expect_err("another unit").to_string();
         assert!(
             said.contains(&format!(
-                "is time in seconds? in {unit} it would be one of an arm"
+                "is time in seconds? in {unit} it would be plausible"
             )),
             "{said}"
         );
@@ -200,7 +200,7 @@ fn many_short_gaps_are_told_as_many() {
     let refused = read(&text("time,q1,tau1", &rows(|k| !lost(k), regular)), 1);
     let told = refused.expect_err("six gaps").to_string();
     assert!(
-        told.starts_with("monday.csv: 6 gaps in time take 0.72 s of 4.00 s, more than 5 %, the first behind 0.598 s"),
+        told.starts_with("monday.csv: 6 gaps in time take 0.72 s of 4.00 s, more than 5 %, the first after 0.598 s"),
         "{told}"
     );
 }

@@ -88,7 +88,7 @@ fn more_columns_than_an_arm_has_are_refused() {
     let more = format!("time,q1,tau1{}\n", names(MOST_COLUMNS));
     assert_eq!(
         said(more.as_bytes()),
-        "bomb.csv:1: the log has 10003 columns, more than 10000; leave out those that are no channels of the arm"
+        "bomb.csv:1: the log has 10003 columns, more than 10000; remove those that are not channels of the arm"
     );
     let million = format!("time,q1,tau1{}\n", names(1_000_000));
     assert!(said(million.as_bytes()).contains("bomb.csv:1: the row is longer"));

@@ -137,11 +137,11 @@ fn groups_of_columns_and_fields_above_a_header_are_passed_over() {
     let twice = format!("time,q1,tau1\n\n{}", text("time,q1,tau1", &rows(40)));
     assert_eq!(
         refusal(&twice, 1),
-        "monday.csv:1: the line may name the columns as well as line 3 above the rows; remove the lines above that, or begin each with `#`"
+        "monday.csv:1: both this line and line 3 above the rows may be the header; remove the lines above the header, or begin each with `#`"
     );
     let below = refusal(&format!("Robot,UR5\n\n{twice}"), 1);
     assert!(
-        below.starts_with("monday.csv:3: the line may name the columns as well as line 5"),
+        below.starts_with("monday.csv:3: both this line and line 5"),
         "{below}"
     );
 }
@@ -187,19 +187,19 @@ fn names_that_are_asked_for_are_the_header_and_not_units() {
             "time,q1,tau1,temp,temp",
             "s,deg,Nm,degC,degC",
             ",20,21",
-            "monday.csv:1: column `temp` stands there twice",
+            "monday.csv:1: column `temp` appears twice",
         ),
         (
             "\"time\",\"q1\",\"tau1\",\"temp\",\"temp\"",
             "s,deg,Nm,degC,degC",
             ",20,21",
-            "monday.csv:1: column `temp` stands there twice",
+            "monday.csv:1: column `temp` appears twice",
         ),
         (
             "time,q1,tau1\nclock,angle,load",
             "s,deg,Nm",
             "",
-            "monday.csv:2: the names of columns are in line 1, and only one line of units may stand between",
+            "monday.csv:2: the header is line 1, and only one line of units may follow it before",
         ),
     ] {
         let told = refusal(&in_degrees(header, units, more), 1);
@@ -239,7 +239,7 @@ fn mistakes_of_a_header_have_its_line() {
             "time,q1,load",
             "missing column `tau1`; the header has `time`, `q1`, `load`",
         ),
-        ("time,q1,q1", "column `q1` stands there twice"),
+        ("time,q1,q1", "column `q1` appears twice"),
         ("time,q1,tau_1", "unknown column `tau_1`: write `tau1`"),
         ("time,q1,tau7", "unknown column `tau7`: the arm has 1 joint"),
         (

@@ -61,7 +61,7 @@ impl Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Chance => write!(f, "no more than chance"),
+            Self::Chance => write!(f, "not significant"),
             Self::EndOfRange => write!(f, "shape at the end of its range"),
             Self::Unsteady => write!(f, "folds disagree"),
             Self::Sign => write!(f, "wrong sign"),
@@ -69,9 +69,9 @@ impl fmt::Display for Refusal {
             Self::Small => write!(f, "under {MATERIAL_PERCENT} % of the error"),
             Self::Unsolved => write!(f, "no solution in its ranges"),
             Self::Noise => write!(f, "noise of the torque itself"),
-            Self::ComesBack => write!(f, "leaves what comes back"),
-            Self::Undetermined => write!(f, "no parameter is told"),
-            Self::AtTurns => write!(f, "only where joints turn"),
+            Self::ComesBack => write!(f, "leaves a repeating residual"),
+            Self::Undetermined => write!(f, "no parameter is significant"),
+            Self::AtTurns => write!(f, "only near velocity reversals"),
         }
     }
 }
