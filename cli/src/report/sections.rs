@@ -255,8 +255,8 @@ pub(crate) fn figures(
                 &drawn.of_joint(joint, name),
                 &legend,
                 &format!(
-                    "{name}: torque over time, measured and of the {last}, raw samples; residual, which is measured minus predicted torque, over \
-                     velocity, position, load and time, in the band of the fit; root of its spectral density, raw samples."
+                    "{name}: (a) torque over time, measured and of the {last}, raw samples; residual, which is measured minus predicted torque, over \
+                     (b) velocity, (c) position, (d) load and (e) time, in the band of the fit; (f) root of its spectral density, raw samples."
                 ),
             );
         });
