@@ -15,6 +15,7 @@ pub use log::{LogBlock, LogChannel, LogColumn};
 
 /// A whole file: robots and effect definitions in the order of the text.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Ast {
     /// `robot Name { .. }`; a spec has exactly one.
     pub robots: Vec<Robot>,
@@ -24,6 +25,7 @@ pub struct Ast {
 
 /// `robot Name { .. }`
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Robot {
     /// Its name.
     pub name: Ident,
