@@ -14,6 +14,9 @@ const SIZE: (u32, u32) = (380, 284);
 /// Room above a drawing, for the letter by which its caption calls it.
 const HEAD: u32 = 22;
 
+/// Room behind a drawing, for half of a number at the end of its axis.
+const END: u32 = 16;
+
 /// Letters at axes.
 pub(super) const TEXT: (&str, i32) = ("sans-serif", 15);
 
@@ -109,6 +112,7 @@ impl Chart<'_> {
             let mut chart = ChartBuilder::on(&root)
                 .margin(6)
                 .margin_top(HEAD)
+                .margin_right(END)
                 .x_label_area_size(42)
                 .y_label_area_size(66)
                 .build_cartesian_2d(axis(x.clone()), axis(y.clone()))
@@ -168,7 +172,11 @@ impl Chart<'_> {
 
     /// Lines where one of both axes is at zero, within the drawing.
     fn zeros(&self, x: &Range<f64>, y: &Range<f64>) -> Vec<[(f64, f64); 2]> {
-        let has_zero = |axis: &Range<f64>| axis.start < 0.0 && 0.0 < axis.end;
+        // Beyond the room at both ends, which time that begins at zero has, too.
+        let has_zero = |axis: &Range<f64>| {
+            let edge = ROOM * (axis.end - axis.start);
+            axis.start + edge < 0.0 && 0.0 < axis.end - edge
+        };
         let across = (!self.is_logarithmic && has_zero(y)).then(|| [(x.start, 0.0), (x.end, 0.0)]);
         let up = (!self.is_logarithmic && has_zero(x)).then(|| [(0.0, y.start), (0.0, y.end)]);
         across.into_iter().chain(up).collect()
@@ -252,6 +260,9 @@ pub(super) fn tick(value: f64) -> String {
     text.replace('-', "\u{2212}")
 }
 
+/// Room at each end of an axis, as a share of what it shows.
+const ROOM: f64 = 0.05;
+
 /// The values with some room.
 fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
@@ -260,7 +271,7 @@ fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
     if low > high {
         return 0.0..1.0;
     }
-    let room = (0.05 * (high - low)).max(1e-9 * high.abs().max(1.0));
+    let room = (ROOM * (high - low)).max(1e-9 * high.abs().max(1.0));
     low - room..high + room
 }
 
@@ -369,7 +380,7 @@ mod tests {
         assert_eq!(zeros(&around), 2, "{around}");
         assert!(around.contains("(b)"), "{around}");
         assert!(around.contains("var(--measured)"), "{around}");
-        let of_time = svg(false, vec![(5.0, -2.0), (9.0, 2.0)]);
+        let of_time = svg(false, vec![(0.0, -2.0), (9.0, 2.0)]);
         assert_eq!(zeros(&of_time), 1, "{of_time}");
         let apart = svg(false, vec![(5.0, 1.0), (9.0, 2.0)]);
         assert_eq!(zeros(&apart), 0, "{apart}");
