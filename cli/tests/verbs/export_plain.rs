@@ -89,7 +89,8 @@ joint6.motor_inertia.ia 0.236587 0.00016
 
 /// Values of an attribute of all elements that have it.
 fn values(xml: &str, attribute: &str) -> Vec<f64> {
-    let parts = xml.split(&format!(" {attribute}=\"")).skip(1);
+    let name = format!(" {attribute}=\"");
+    let parts = xml.split(&name).skip(1);
     let values = parts.filter_map(|rest| rest.split('"').next()?.parse().ok());
     values.collect()
 }

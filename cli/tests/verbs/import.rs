@@ -59,13 +59,13 @@ fn import_refuses_what_it_cannot_use() {
         (
             "<parent link=\"base\"/>",
             "<parent link=\"bas\"/>",
-            "line 11: the URDF has no link `bas`; write `base`",
+            "line 7: the URDF has no link `bas`; write `base`",
             "^^^^^^^^^^",
         ),
         (
             "<axis xyz=\"0 1 0\"/>",
             "<axis xyz=\"0 0 0\"/>",
-            "line 12: joint `lift` has an axis without direction",
+            "line 9: joint `swing` has an axis without direction",
             "^^^^^^^^^^^",
         ),
     ] {
