@@ -129,7 +129,7 @@ fn a_thousand_damaged_logs() {
     assert!(noted > 0, "{noted}");
 }
 
-/// `log.csv:LINE: ..`, a column or a joint by its name, or how much there is of a file that is too short to have a place.
+/// `log.csv:LINE: ..`, a column or a joint by its name; or how much there is of a file that is too short, or its rate, which no line has.
 fn names_a_place_of_a_log(said: &str) -> bool {
     let error = said
         .lines()
@@ -141,8 +141,14 @@ fn names_a_place_of_a_log(said: &str) -> bool {
     let in_line = line.parse::<usize>().is_ok_and(|line| line > 0);
     let has = |name: &&str| error.contains(&format!("`{name}`"));
     let of_column = ["time", "q1", "tau1", "rail"].iter().any(has);
-    let is_short = error.starts_with(" the log is empty") || error.starts_with(" the log has ");
-    in_line || of_column || is_short
+    let of_all = [
+        " the log is empty",
+        " the log has ",
+        " a log of ",
+        " the sample rate is ",
+    ];
+    let is_of_all = of_all.iter().any(|words| error.starts_with(words));
+    in_line || of_column || is_of_all
 }
 
 /// `--> arm.robot:LINE:COLUMN`, or the file where it is no text.
