@@ -15,7 +15,6 @@ pub use log::{LogBlock, LogChannel, LogColumn};
 
 /// A whole file: robots and effect definitions in the order of the text.
 #[derive(Debug, Clone, Default)]
-#[non_exhaustive]
 pub struct Ast {
     /// `robot Name { .. }`; a spec has exactly one.
     pub robots: Vec<Robot>,
@@ -25,7 +24,6 @@ pub struct Ast {
 
 /// `robot Name { .. }`
 #[derive(Debug, Clone)]
-#[non_exhaustive]
 pub struct Robot {
     /// Its name.
     pub name: Ident,
