@@ -6,7 +6,7 @@ use robot_model::identify::IdentifyError;
 use robot_model::log::LogError;
 use robot_model_spec::Diagnostics;
 use robot_model_spec::suggest::nearest;
-use robot_model_spec::urdf::UrdfFault;
+use robot_model_spec::urdf::{UrdfFault, UrdfPlace};
 use thiserror::Error;
 
 use crate::snippet::{self, Mark};
@@ -61,6 +61,16 @@ pub enum Error {
         /// What is wrong with it, with the line.
         fault: UrdfFault,
     },
+    /// A URDF whose arm cannot be said in a spec.
+    #[error("{}: {}{reason}", path.display(), in_line(place.as_ref()))]
+    Import {
+        /// The file.
+        path: PathBuf,
+        /// Where it is, where that is one place.
+        place: Option<UrdfPlace>,
+        /// What is wrong there, and what to do.
+        reason: String,
+    },
     /// An argument that is well formed and makes no sense.
     #[error("{0}")]
     Argument(String),
@@ -98,12 +108,12 @@ impl Error {
                 let line = u64::try_from(*line).ok()?;
                 snippet::render(path, line, Mark::Column(*column), color)
             }
-            Self::Urdf { path, fault } => {
-                // What a reason begins with is what stands there, mostly.
-                let quoted = fault.reason.split('`').nth(1);
-                let mark = quoted.map_or(Mark::Line, Mark::Words);
-                snippet::render(path, fault.line?, mark, color)
-            }
+            Self::Urdf { path, fault } => of_urdf(path, fault.place.as_ref()?, color),
+            Self::Import {
+                path,
+                place: Some(place),
+                ..
+            } => of_urdf(path, place, color),
             _ => None,
         }
     }
@@ -175,6 +185,18 @@ fn not_there(path: &Path) -> String {
             folder.display()
         ),
     }
+}
+
+/// `line 3: ` before a reason.
+fn in_line(place: Option<&UrdfPlace>) -> String {
+    place.map_or_else(String::new, |place| format!("line {}: ", place.line))
+}
+
+/// The line of a URDF with what is at fault.
+fn of_urdf(path: &Path, place: &UrdfPlace, color: bool) -> Option<String> {
+    let letters = place.letters.clone();
+    let mark = letters.map_or(Mark::Line, Mark::Letters);
+    snippet::render(path, place.line, mark, color)
 }
 
 /// `:3:14` behind a file's name.

@@ -96,7 +96,7 @@ impl Import {
         } else {
             files.claim_new(&self.output)?
         };
-        let imported = import(&urdf, &options).map_err(|error| self.refused(error))?;
+        let imported = import(&urdf, &options).map_err(|error| self.refused(&urdf, error))?;
         if self.gravity.is_none() {
             let [x, y, z] = ASSUMED_GRAVITY;
             output::say(&format!(
@@ -109,7 +109,7 @@ impl Import {
         file.commit(imported.spec.as_bytes())
     }
 
-    fn refused(&self, error: ImportError) -> Error {
+    fn refused(&self, urdf: &str, error: ImportError) -> Error {
         match error {
             // Its message begins with the argument, which is not in the URDF.
             ImportError::Effects(_) => Error::Argument(error.to_string()),
@@ -117,7 +117,11 @@ impl Import {
                 path: self.urdf.clone(),
                 fault,
             },
-            other => Error::Argument(format!("{}: {other}", self.urdf.display())),
+            other => Error::Import {
+                path: self.urdf.clone(),
+                place: other.place(urdf),
+                reason: other.to_string(),
+            },
         }
     }
 }

@@ -1,9 +1,12 @@
-//! Ctrl-C: the end, with files whole or absent; in a search first a wish to have the best so far.
+//! Ctrl-C: the end, with files whole or absent and a line that says which; in a search first a wish to have the best so far.
 
 use std::fs;
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::output::{names, say};
 
 /// What a shell takes for the end by Ctrl-C.
 const CODE: i32 = 130;
@@ -14,6 +17,12 @@ static IS_PRESSED: AtomicBool = AtomicBool::new(false);
 
 /// Folders that were made for files which are not there yet. Whoever writes holds it, and the end waits.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Files that are in place.
+static WRITTEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// From the beginning of a terminal's line, which a bar may be on, to its end nothing.
+const CLEARED: &str = "\r\u{1b}[2K";
 
 /// From now on Ctrl-C is heeded. Where the system gives no signals, nobody presses.
 pub(crate) fn heed() {
@@ -30,7 +39,38 @@ fn pressed() {
         // What somebody has put there in the meantime stays.
         let _ = fs::remove_dir(folder);
     }
+    let clear = if std::io::stderr().is_terminal() {
+        CLEARED
+    } else {
+        ""
+    };
+    let written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
+    say(&format!("{clear}{}", told(&written)));
     std::process::exit(CODE)
+}
+
+/// What is said at the end.
+fn told(written: &[PathBuf]) -> String {
+    let files = written.iter().map(|path| path.display().to_string());
+    let files: Vec<String> = files.collect();
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    match files.as_slice() {
+        [] => "interrupted: no file was written".to_owned(),
+        [_] => format!(
+            "interrupted: {} is whole, and no other file was written",
+            names(&files)
+        ),
+        _ => format!(
+            "interrupted: {} are whole, and no other file was written",
+            names(&files)
+        ),
+    }
+}
+
+/// A file is in place; only where Ctrl-C waits.
+pub(crate) fn wrote(path: &Path) {
+    let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
+    written.push(path.to_owned());
 }
 
 fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -95,5 +135,23 @@ impl Wish {
 impl Drop for Wish {
     fn drop(&mut self) {
         IS_WATCHED.store(false, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_says_which_files_are_there() {
+        let said = |paths: &[&str]| told(&paths.iter().map(PathBuf::from).collect::<Vec<_>>());
+        assert_eq!(said(&[]), "interrupted: no file was written");
+        assert_eq!(
+            said(&["fit.json"]),
+            "interrupted: `fit.json` is whole, and no other file was written"
+        );
+        let two = said(&["a.robot", "page/index.html"]);
+        assert!(two.starts_with("interrupted: `a.robot`"), "{two}");
+        assert!(two.contains("`page/index.html` are whole"), "{two}");
     }
 }

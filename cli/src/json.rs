@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use robot_model_codegen::parameters::json::parse;
+use robot_model_codegen::parameters::json::{self, parse};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -25,11 +25,7 @@ pub(crate) fn read(path: &Path) -> Result<Value, Error> {
 
 /// Line and column of a text in quotation marks, where it stands first.
 pub(crate) fn place_of(path: &Path, text: &str) -> Option<(usize, usize)> {
-    let file = read_text(path).ok()?;
-    let before = &file[..file.find(&Value::from(text).to_string())?];
-    let line = before.matches('\n').count() + 1;
-    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-    Some((line, column))
+    json::place_of(&read_text(path).ok()?, text)
 }
 
 /// What a file says, as it has to be written; `form` shows how. Names the part that is not, such as `balls[1].radius`.

@@ -7,6 +7,7 @@ mod record;
 pub(crate) mod table;
 
 use std::io::{self, Write};
+use std::path::Path;
 
 pub(crate) use content::{Content, MARK};
 pub(crate) use files::Files;
@@ -67,11 +68,20 @@ struct Noted<'a, R> {
 /// The same with notes, which a terminal has with a word before them.
 pub(crate) fn json_with_notes(report: &impl Serialize, notes: &[String]) -> String {
     let notes = notes.iter();
-    let notes = notes.map(|note| note.strip_prefix("note: ").unwrap_or(note));
+    let notes = notes.map(|note| unmarked(note));
     json(&Noted {
         report,
         notes: notes.collect(),
     })
+}
+
+/// What was said of columns that are read otherwise than they are meant: all numbers are in doubt.
+pub(crate) const WARNING: &str = "warning: ";
+
+/// The same without the word that stands before it on a terminal.
+pub(crate) fn unmarked(note: &str) -> &str {
+    let plain = note.strip_prefix("note: ");
+    plain.or(note.strip_prefix(WARNING)).unwrap_or(note)
 }
 
 /// A word as a shell takes it.
@@ -81,6 +91,24 @@ pub(crate) fn quoted(word: &str) -> String {
         return word.to_owned();
     }
     format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+/// A path as a shell and the program take it: none that begins with `-` is an option.
+pub(crate) fn path_word(path: &Path) -> String {
+    let text = path.display().to_string();
+    if text.starts_with('-') {
+        quoted(&format!("./{text}"))
+    } else {
+        quoted(&text)
+    }
+}
+
+/// With a capital and a full stop.
+pub(crate) fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string());
+    let end = if text.ends_with(['.', '?']) { "" } else { "." };
+    format!("{}{}{end}", first.unwrap_or_default(), letters.as_str())
 }
 
 /// A number with so many digits.
@@ -111,5 +139,13 @@ mod tests {
         assert_eq!(rounded(-2.0).to_string(), "-2");
         assert_eq!(rounded(123_456_789.0).to_string(), "123457000");
         assert!(rounded(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn paths_are_words_of_a_shell() {
+        let said = |path: &str| path_word(Path::new(path));
+        assert_eq!(said("monday.csv"), "monday.csv");
+        assert_eq!(said("my log.csv"), "'my log.csv'");
+        assert_eq!(said("-a.csv"), "./-a.csv");
     }
 }

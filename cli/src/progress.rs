@@ -239,8 +239,17 @@ impl Progress {
 
     /// Doubts about a result, each for itself: they are said behind it, where people look, or where it fails to come.
     pub(crate) fn doubts(&self, doubts: impl IntoIterator<Item = impl Display>) {
+        self.behind("note: ", doubts);
+    }
+
+    /// The same of what puts all of a result in doubt.
+    pub(crate) fn warnings(&self, warnings: impl IntoIterator<Item = impl Display>) {
+        self.behind(output::WARNING, warnings);
+    }
+
+    fn behind(&self, mark: &str, doubts: impl IntoIterator<Item = impl Display>) {
         for doubt in doubts {
-            let doubt = format!("note: {doubt}");
+            let doubt = format!("{mark}{doubt}");
             if let Ok(mut noted) = self.noted.lock() {
                 noted.push(doubt.clone());
             }

@@ -12,6 +12,8 @@ const LONG: Duration = Duration::from_secs(2);
 #[derive(Debug)]
 pub(crate) struct Rounds {
     most: usize,
+    /// Those that have begun.
+    count: usize,
     begun: Instant,
     done: f64,
     each: Option<Duration>,
@@ -22,6 +24,7 @@ impl Rounds {
     pub(crate) fn new(most: usize) -> Self {
         Self {
             most,
+            count: 0,
             begun: Instant::now(),
             done: 1.0,
             each: None,
@@ -34,6 +37,7 @@ impl Rounds {
             return words.to_owned();
         };
         if done < self.done {
+            self.count += 1;
             self.begun = Instant::now();
         }
         self.done = done;
@@ -43,7 +47,11 @@ impl Rounds {
         }
         let each = self.each.map(|each| {
             let seconds = Duration::from_secs_f64(each.as_secs_f64().round());
-            format!(", {:#} each", HumanDuration(seconds))
+            // Nobody knows which round is the last: this is how long it takes if all are wanted.
+            let rest = self.most.saturating_sub(self.count) as f64 + 1.0 - done;
+            let rest = Duration::from_secs_f64((rest * each.as_secs_f64()).round());
+            let [each, rest] = [seconds, rest].map(HumanDuration);
+            format!(", {each:#} each: {rest:#} more at most")
         });
         let (most, each) = (self.most, each.unwrap_or_default());
         format!("{words}; at most {most} rounds{each}")
@@ -65,9 +73,9 @@ mod tests {
         let ago = Instant::now().checked_sub(Duration::from_secs(20));
         rounds.begun = ago.expect("a machine that is on");
         let told = rounds.told("round 1", Some(0.5));
-        assert_eq!(told, "round 1; at most 6 rounds, 40s each");
+        assert_eq!(told, "round 1; at most 6 rounds, 40s each: 4m more at most");
         // The next one begins with what is known of the one before.
         let told = rounds.told("round 2", Some(0.0));
-        assert_eq!(told, "round 2; at most 6 rounds, 40s each");
+        assert_eq!(told, "round 2; at most 6 rounds, 40s each: 3m more at most");
     }
 }

@@ -8,12 +8,14 @@ use std::path::Path;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 /// What the caret is under.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) enum Mark<'a> {
     /// The first letter of the line.
     Line,
     /// A letter, from 1.
     Column(usize),
+    /// Letters, from 1.
+    Letters(Range<usize>),
     /// Words, where they stand in the line once; else the first letter of the line.
     Words(&'a str),
 }
@@ -54,6 +56,14 @@ impl Mark<'_> {
         let first = letter(line.len() - line.trim_start().len());
         match self {
             Self::Line => first,
+            Self::Letters(letters) => {
+                let mut places = line.char_indices().map(|(at, _)| at).chain([line.len()]);
+                let place = places.nth(letters.start.saturating_sub(1));
+                let from = place.unwrap_or(line.len());
+                let count = letters.end.saturating_sub(letters.start);
+                let behind = line[from..].char_indices().map(|(at, _)| from + at);
+                from..behind.skip(count).next().unwrap_or(line.len())
+            }
             Self::Column(column) => {
                 let mut letters = line.char_indices().skip(column.saturating_sub(1));
                 letter(letters.next().map_or(line.len(), |(at, _)| at))
@@ -94,7 +104,7 @@ mod tests {
             (1, Mark::Column(6), "1 | time,q1,tau1\n  |      ^"),
             (3, Mark::Line, "3 | 0.1,abc,2\n  | ^"),
         ] {
-            let shown = shown(log, line, mark).expect("a line");
+            let shown = shown(log, line, mark.clone()).expect("a line");
             assert!(shown.contains(below), "{mark:?}:\n{shown}");
         }
     }

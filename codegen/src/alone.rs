@@ -10,6 +10,7 @@ use crate::states::{self, StateProgram};
 
 /// The columns of an effect that is not declared, tried on given joints.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct EffectColumns {
     /// Its columns: one per linear parameter of the definition. Shapes, inputs and states are symbols by their index in the
     /// definition.

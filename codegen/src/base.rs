@@ -33,6 +33,7 @@ pub use rank::{RankStatus, UnclearColumn};
 
 /// The base parameters.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct BaseForm {
     /// Standard parameters whose columns are kept, ascending: one base parameter each.
     pub kept: Vec<usize>,

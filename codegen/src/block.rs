@@ -5,6 +5,7 @@ use crate::interpreter::Program;
 
 /// The entries of some regressor columns that are not zero by structure, with the program that evaluates them.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Block {
     /// `(joint, column)` of output `k` of the program; both from 0.
     pub entries: Vec<(usize, usize)>,

@@ -212,7 +212,12 @@ pub fn compile_text_with(
     let said = |reason: String| refused(None, reason);
     let compiled = compiled(source_name, text)?;
     let value = json::parse(parameters).map_err(|fault| refused(fault.line, fault.reason))?;
-    let given = parameters::file::read(&value, &compiled.shape_names()).map_err(said)?;
+    let given = parameters::file::read(&value, &compiled.shape_names());
+    let given = given.map_err(|error| {
+        let name = error.name.as_deref();
+        let place = name.and_then(|name| json::place_of(parameters, name));
+        refused(place, error.reason)
+    })?;
     let found = parameters::values(&compiled, &given);
     let (values, doubts) = found.map_err(|error| said(error.to_string()))?;
     let baked = compiled.baked(&values.beta, &values.shapes);
@@ -333,5 +338,7 @@ mod tests {
             "fit.json:1:12: it is not JSON: trailing comma; repair it here"
         );
         assert!(said("[]").starts_with("fit.json: it is a list: write "));
+        let text = said("{\n \"up.m\": \"four\"}");
+        assert!(text.starts_with("fit.json:2:2: `up.m` is text"), "{text}");
     }
 }

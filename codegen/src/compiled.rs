@@ -18,6 +18,7 @@ use crate::states::{self, StateEquations, StateProgram};
 
 /// A model with everything that is derived from it.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Compiled {
     /// What was compiled.
     pub model: Model,

@@ -15,6 +15,7 @@ use smooth::smoothed;
 
 /// Outputs and the slopes of their weighted sum.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Differentiable {
     /// Reads `q, dq, ddq` and the states of [`Self::memory`].
     pub values: Program,
@@ -27,6 +28,7 @@ pub struct Differentiable {
 
 /// The states of an effect, `dz/dt = f(z, q, dq, ddq)`, with the slopes of what steps them.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Remembering {
     /// `f` and `df/dz`.
     pub states: StateProgram,
@@ -66,6 +68,7 @@ pub struct RivalColumns {
 
 /// Columns that a design can move, with those that it cannot.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct DesignColumns {
     /// What is designed for.
     pub columns: Vec<DesignColumn>,

@@ -20,6 +20,7 @@ use crate::regressor::LinearForm;
 
 /// `tau = d/dt (Y_p * standard) - Y_h * standard`, with the load of load-dependent effects as [`Symbol::RigidTorque`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct MomentumForm {
     /// `Y_p[joint][parameter]`, the momentum regressor; reads `q, dq`.
     pub momentum: Vec<Vec<ExprId>>,
@@ -41,6 +42,7 @@ pub struct Refusal {
 
 /// Why a column has no momentum form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Reason {
     /// It is not a sum of accelerations with coefficients.
     NotAffine,

@@ -11,6 +11,7 @@ use crate::plant::jacobian;
 
 /// Links that are not where their joints are; `n` joints, `p` internal states.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Linkage {
     /// Joints with a spring, `s` of them, ascending.
     pub springs: Vec<usize>,

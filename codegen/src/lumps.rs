@@ -23,6 +23,7 @@ use function::Function;
 
 /// Lumped parameters with their energies.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Lumps {
     /// The lumps, by rising representative.
     pub lumps: Vec<Lump>,
@@ -32,6 +33,7 @@ pub struct Lumps {
 
 /// A combination of standard parameters that only occurs as a whole.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Lump {
     /// The standard parameter that stands for it.
     pub representative: usize,

@@ -16,6 +16,7 @@ use crate::interpreter::Program;
 
 /// An effect because of which the torque is no function of `q, dq, ddq` at one instant.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NotInstantaneous {
     /// File and line of the declaration.
     place: String,

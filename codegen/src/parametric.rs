@@ -11,6 +11,7 @@ use crate::plant::Equations;
 
 /// Slopes by `u` unknowns: the kept base parameters, then the free shapes, each in its order. Matrices are row by row, a column an unknown.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct PlantParameters {
     /// Of the torque of the rigid body, `n u` outputs.
     pub rigid: Program,

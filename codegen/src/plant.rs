@@ -14,6 +14,7 @@ use crate::interpreter::Program;
 
 /// Programs of the motion. All read base parameters as [`Compiled::inverse_dynamics`] does; matrices are row by row.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Plant {
     /// Degrees of freedom, `n`.
     pub dof: usize,
@@ -37,6 +38,7 @@ pub struct Plant {
 
 /// What effects share in the torque, `E`.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Share {
     /// Its own switches, `m`. Those of forces have their symbols behind those of other effects.
     pub switches: usize,
@@ -51,6 +53,7 @@ pub struct Share {
 
 /// Programs of slopes, for implicit steps.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct PlantSlopes {
     /// `d R / dq`, `n n` outputs.
     pub rigid_by_position: Program,

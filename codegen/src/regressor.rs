@@ -10,6 +10,7 @@ use crate::expr::{Dag, ExprId, Symbol};
 
 /// `tau = Y * standard`, with the load of load-dependent effects as [`Symbol::RigidTorque`].
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct LinearForm {
     /// `Y[joint][parameter]`; zero where a joint's torque does not depend on a parameter.
     pub regressor: Vec<Vec<ExprId>>,

@@ -8,6 +8,7 @@ use crate::interpreter::Program;
 
 /// The states of one effect, which depend on each other and on no other's.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct StateEquations {
     /// Number of the first state, as in [`Symbol::State`].
     pub first: usize,
@@ -21,6 +22,7 @@ pub struct StateEquations {
 
 /// The same as a program.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct StateProgram {
     /// Number of the first state.
     pub first: usize,

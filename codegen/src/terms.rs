@@ -9,6 +9,7 @@ use crate::show::polynomial;
 
 /// Functions of the motion with their names, `cos(q1 - q2) dq1^2`, free of parameters; in the order of their names.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Terms {
     /// As they stand in equations.
     pub names: Vec<String>,

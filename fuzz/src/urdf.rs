@@ -159,7 +159,7 @@ pub(crate) fn answer(urdf: &str) -> Answer {
         // Whoever writes into a text reads it more strictly than whoever takes numbers out of it.
         Err(ExportError::Parse(fault)) => {
             assert!(
-                fault.line.is_some(),
+                fault.place.is_some(),
                 "a message that names no place: {}",
                 skeleton(&fault.reason)
             );

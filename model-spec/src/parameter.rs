@@ -62,6 +62,7 @@ impl InertialElement {
 
 /// A parameter of the linear form `tau = Y * standard`.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct StandardParameter {
     /// `LINK.izz` or `JOINT.EFFECT.PARAMETER`.
     pub name: String,

@@ -53,6 +53,7 @@ pub type Polynomial<Element> = BTreeMap<Monomial, Element>;
 
 /// Why an expression is no polynomial in the parameters, and which part of it: a path of operands from the whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct NotPolynomial {
     /// What keeps it from being one.
     pub reason: Reason,
@@ -62,6 +63,7 @@ pub struct NotPolynomial {
 
 /// What keeps an expression from being a polynomial in the parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Reason {
     /// A parameter inside a function.
     InsideFunction,
@@ -77,6 +79,7 @@ pub enum Reason {
 
 /// Both energies and the points, with the bindings put in.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Expanded<Element> {
     /// Per binding.
     pub bindings: Vec<Polynomial<Element>>,

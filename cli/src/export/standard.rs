@@ -15,6 +15,13 @@ use crate::parameters::{self, Beside, Values};
 /// How exactly base parameters are kept in the search, in deviations; wider ones where a search comes to no end.
 const WIDTHS: [f64; 6] = [1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2];
 
+/// The same where no arm of bodies has the base parameters, the widest first: the wider, the more the nominal values count.
+const PLAIN_WIDTHS: [f64; 5] = [1.0, 0.3, 0.1, 0.03, 0.01];
+
+/// How much farther from the parameters than the nearest arm another one may be: as a share, and in deviations.
+const FARTHER: f64 = 1.1;
+const FARTHER_BY: f64 = 0.01;
+
 /// Masses are the same where they differ by less, as a share.
 const SAME_MASS: f64 = 1e-3;
 
@@ -127,16 +134,20 @@ fn search(
         held(compiled, &arms, is_without),
         Vec::new(),
     ];
-    let mut nearest = None;
+    let (mut nearest, mut is_exact) = (None, false);
     for held in choices {
         let (possible, near) = with_held(compiled, &arms, held, (&values.beta, widths));
-        let is_possible = possible.is_some();
+        is_exact = possible.is_some();
         nearest = possible.or(near).or(nearest);
-        if is_possible {
+        if is_exact {
             break;
         }
     }
-    let found = nearest?;
+    let mut found = nearest?;
+    if !is_exact {
+        let plain = plainest(compiled, &arms, (&values.beta, widths), &found);
+        found = plain.unwrap_or(found);
+    }
     let others = arms.links.iter().filter_map(|link| {
         let both = [link.nominal?[0], found[link.parameters[0]]];
         let is_other = (both[1] - both[0]).abs() > SAME_MASS * both[0];
@@ -144,6 +155,28 @@ fn search(
     });
     let others = others.collect();
     Some((found, others))
+}
+
+/// Of the arms that are hardly farther from base parameters than the nearest one, that which is nearest to the nominal values. The nearest of
+/// all has bodies at the edge of what is possible: for a thousandth of a deviation it gives a link another mass, and takes a rotor away.
+fn plainest(
+    compiled: &Compiled,
+    arms: &PossibleArms,
+    (beta, widths): (&[f64], &[f64]),
+    nearest: &[f64],
+) -> Option<Vec<f64>> {
+    let farthest = |standard: &[f64]| {
+        let own = compiled.base.beta(standard);
+        let pairs = beta.iter().zip(own).zip(widths);
+        let away = pairs.map(|((given, own), width)| ((given - own) / width).abs());
+        away.fold(0.0, f64::max)
+    };
+    let most = FARTHER * farthest(nearest) + FARTHER_BY;
+    PLAIN_WIDTHS.iter().find_map(|width| {
+        let widths: Vec<f64> = widths.iter().map(|one| one * width).collect();
+        let (_, standard) = arms.nearest_to(beta, &widths)?;
+        (farthest(&standard) <= most).then_some(standard)
+    })
 }
 
 /// What a link keeps of its given values: some of the mass and the first moments, by their places among its ten.

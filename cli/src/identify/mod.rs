@@ -233,8 +233,10 @@ impl IdentifyArguments {
         if estimate.is_without_turns && !self.rows.turns.leave_out_turns && !is_of_instruments {
             doubts.push(at_turns::left_out(form.arm()));
         }
-        doubts.extend(self.doubts(form, &estimate, &logs, validation.as_ref(), reading));
+        doubts.extend(self.doubts(form, &estimate, &logs, validation.as_ref(), is_as_meant));
         progress.doubts(doubts);
+        let of_columns = noted::warnings(form, &estimate, &logs, validation.as_ref(), reading);
+        progress.warnings(of_columns);
         // Columns of other joints look late.
         if is_as_meant {
             faults.extend(self.late_channels(&estimate, &progress));

@@ -92,6 +92,22 @@ pub(crate) fn factor_doubts(estimate: &Estimate, form: &dyn Fit) -> Vec<String> 
     all.chain(explained).collect()
 }
 
+/// What puts all numbers in doubt: units, signs and an order of columns that are not those of the spec, as torques tell.
+pub(super) fn warnings(
+    form: &dyn Fit,
+    estimate: &Estimate,
+    logs: &[Log],
+    validation: Option<&Errors>,
+    reading: Option<String>,
+) -> Vec<String> {
+    let is_odd = || {
+        doubts::negative(estimate, form.unknowns()).is_some()
+            || !doubts::explained(estimate, validation).is_empty()
+    };
+    let warning = reading.or_else(|| nominal::doubt(form, estimate, logs, is_odd()));
+    warning.into_iter().collect()
+}
+
 impl IdentifyArguments {
     /// What is doubtful about logs and what was found of them; what puts most of it in doubt is last, where it is seen.
     pub(super) fn doubts(
@@ -100,23 +116,20 @@ impl IdentifyArguments {
         estimate: &Estimate,
         logs: &[Log],
         validation: Option<&Errors>,
-        reading: Option<String>,
+        is_as_meant: bool,
     ) -> Vec<String> {
         let mut all = twice::doubts(&self.logs, self.validate.as_deref());
         // All else follows from columns that are read in another way than they are meant.
-        if let Some(reading) = reading {
-            all.push(reading);
+        if !is_as_meant {
             return all;
         }
         let negative = doubts::negative(estimate, form.unknowns());
         let explained = doubts::explained(estimate, validation);
-        let is_odd = negative.is_some() || !explained.is_empty();
         let fixed = fixed::doubt(form, estimate, logs);
         let is_told = fixed.is_some() || !explained.is_empty();
         let leftover = (!is_told).then(|| leftover::doubt(estimate)).flatten();
         let is_misfit = fixed.is_some() || leftover.is_some();
         all.extend(negative);
-        all.extend(nominal::doubt(form, estimate, logs, is_odd));
         all.extend(nominal::pulled(estimate));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         all.extend(doubts::untold_shapes(estimate));

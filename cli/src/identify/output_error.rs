@@ -28,7 +28,7 @@ use super::results::Results;
 use super::{IdentifyArguments, doubts, readings, twice};
 use crate::Error;
 use crate::interpreted::InterpretedArm;
-use crate::output::{Files, names};
+use crate::output::{Files, WARNING, names};
 use crate::progress::Progress;
 use beginning::{Beginning, Parted};
 use bounds::{Said, bounds};
@@ -176,7 +176,7 @@ impl IdentifyArguments {
             ..Identify::default()
         };
         match readings::others(form, &identify, logs, linear) {
-            Some(doubt) => progress.note(&format!("note: {doubt}")),
+            Some(doubt) => progress.note(&format!("{WARNING}{doubt}")),
             None => faults.extend(self.late_channels(linear, progress)),
         }
     }

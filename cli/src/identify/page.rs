@@ -10,7 +10,7 @@ use robot_model_codegen::Compiled;
 use super::doubts;
 use super::report::{Parameter, counted, identified, shares};
 use crate::Error;
-use crate::output::significant;
+use crate::output::{WARNING, sentence, significant, unmarked};
 use crate::report::{
     Bars, Drawn, Ink, Page, Shown, again, as_read, base_parameters, figures, parameters,
 };
@@ -121,10 +121,11 @@ impl<'a> Evidence<'a> {
 
     /// What is said of single files, and of what was found, which wants an answer first.
     fn sorted_notes(&self, inputs: &[PathBuf]) -> (Vec<String>, Vec<String>) {
-        let plain = |note: &String| note.strip_prefix("note: ").unwrap_or(note).to_owned();
-        let (of_logs, of_result): (Vec<&String>, Vec<&String>) = self
-            .notes
-            .iter()
+        let plain = |note: &String| unmarked(note).to_owned();
+        // What puts all in doubt is in the verdict itself.
+        let notes = self.notes.iter();
+        let (of_logs, of_result): (Vec<&String>, Vec<&String>) = notes
+            .filter(|note| !note.starts_with(WARNING))
             .partition(|note| is_of_a_file(note, inputs) && !self.is_of_late_channels(note));
         // Of what is said of the model that said last puts most in doubt, and a page is read from its beginning.
         let (late, of_model): (Vec<&String>, Vec<&String>) = of_result
@@ -148,7 +149,12 @@ impl<'a> Evidence<'a> {
             let mut left = errors.relative_percent.iter();
             left.any(|percent| *percent > doubts::MUCH)
         });
+        let warnings = self.notes.iter();
+        let warnings = warnings.filter(|note| note.starts_with(WARNING));
+        let warnings: Vec<String> = warnings.map(|note| sentence(unmarked(note))).collect();
+        let is_as_meant = warnings.is_empty();
         let (class, word) = match (is_ill, untold, self.notes.is_empty()) {
+            _ if !is_as_meant => ("open", "Units, signs and columns first"),
             (true, ..) => ("open", "The model does not fit"),
             (_, 0, true) => ("good", "Identified"),
             (_, 0, false) => ("known", "Identified, with notes"),
@@ -170,13 +176,13 @@ impl<'a> Evidence<'a> {
         let elsewhere = (!of_logs.is_empty())
             .then(|| "Notes on how files were read are under Data.".to_owned());
         let sentences = std::iter::once(told).chain(left).chain(elsewhere);
-        let sentences: Vec<String> = sentences.collect();
+        let sentences: Vec<String> = warnings.into_iter().chain(sentences).collect();
         page.verdict(class, word, &sentences.join(" "));
         if !of_result.is_empty() {
             page.part("What to check");
             page.list(of_result);
         }
-        if let Some(next) = next {
+        if let Some(next) = next.filter(|_| is_as_meant) {
             page.part("Next");
             page.text(
                 "Is the residual noise, or does the spec lack an effect? This command finds out:",
@@ -349,7 +355,7 @@ fn worst(errors: &Errors) -> Option<usize> {
 
 /// Whether a note is of one file: it begins with its name.
 fn is_of_a_file(note: &str, files: &[PathBuf]) -> bool {
-    let note = note.strip_prefix("note: ").unwrap_or(note);
+    let note = unmarked(note);
     let mut names = files.iter().map(|path| path.display().to_string());
     names.any(|name| {
         note.strip_prefix(&name)

@@ -22,7 +22,7 @@ use crate::{Error, output};
 pub(crate) struct New {
     /// The robot's name, such as `Picker`.
     #[arg(value_parser = name)]
-    name: String,
+    name: Name,
     /// The spec to write; default: the robot's name with `.robot` appended.
     #[arg(short, long, value_name = "SPEC")]
     output: Option<PathBuf>,
@@ -67,26 +67,51 @@ impl From<ConventionArgument> for Convention {
     }
 }
 
+/// A robot's name, as it was asked for and as the language has it.
+#[derive(Debug, Clone)]
+struct Name {
+    asked: String,
+    taken: String,
+}
+
+impl Name {
+    /// That it is another one than was asked for; a first letter that is a capital now needs no word.
+    fn note(&self) -> Option<String> {
+        let Self { asked, taken } = self;
+        let is_same = taken.eq_ignore_ascii_case(asked);
+        (!is_same).then(|| {
+            format!(
+                "note: the robot is called `{taken}` instead of `{asked}`: names begin with a capital letter and contain only letters and digits"
+            )
+        })
+    }
+}
+
 /// A name, not a file.
-fn name(text: &str) -> Result<String, String> {
+fn name(text: &str) -> Result<Name, String> {
     let is_path = text.contains(['/', '\\']) || text.contains('.');
     if is_path || !text.contains(|c: char| c.is_ascii_alphabetic()) {
         return Err("write the robot's name, such as `Picker`, and its file after `-o`".to_owned());
     }
-    Ok(robot_model_spec::upper_camel(text))
+    Ok(Name {
+        asked: text.to_owned(),
+        taken: robot_model_spec::upper_camel(text),
+    })
 }
 
 impl New {
     pub(crate) fn run(&self) -> Result<(), Error> {
+        let name = &self.name.taken;
         if self.energies && self.joints > MOST_COORDINATES {
             return Err(Error::Argument(format!(
                 "--energies --joints {}: a spec to start from has at most {MOST_COORDINATES} coordinates; write more of them yourself, up to 24",
                 self.joints
             )));
         }
-        let path = self.output.clone().unwrap_or_else(|| {
-            PathBuf::from(format!("{}.robot", Prefix::of_robot(&self.name).as_str()))
-        });
+        let path = self
+            .output
+            .clone()
+            .unwrap_or_else(|| PathBuf::from(format!("{}.robot", Prefix::of_robot(name).as_str())));
         let file = if self.force {
             OutFile::create(&path)?
         } else {
@@ -95,13 +120,16 @@ impl New {
         let shown = path.display().to_string();
         let joints = usize::from(self.joints);
         let text = if self.energies {
-            text::of_energies(&self.name, &shown, joints)
+            text::of_energies(name, &shown, joints)
         } else {
-            text::of_chain(&self.name, &shown, joints, self.convention.into())
+            text::of_chain(name, &shown, joints, self.convention.into())
         };
         // A name may be one that the language does not take.
         robot_model_spec::load(&shown, &text)?;
         file.commit(text.as_bytes())?;
+        if let Some(note) = self.name.note() {
+            output::say(&note);
+        }
         output::print(&format!(
             "wrote {shown}: fill in the arm's numbers, then run `robot-model check {shown}`\n"
         ))

@@ -161,6 +161,7 @@ impl OutFile {
             io::ErrorKind::AlreadyExists => there_already(&self.path),
             _ => failed(&error.error),
         })?;
+        interrupt::wrote(&self.path);
         Ok(())
     }
 }

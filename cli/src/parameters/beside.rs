@@ -5,6 +5,7 @@ use std::path::Path;
 use robot_model_codegen::Compiled;
 use robot_model_codegen::parameters::{file, standard};
 
+use super::of_file;
 use crate::{Error, json};
 
 /// Rounding of the sums that make base parameters of standard ones.
@@ -22,7 +23,7 @@ pub(crate) enum Beside {
 /// What a file says of standard parameters, where its base parameters were taken.
 pub(crate) fn beside(compiled: &Compiled, file: &Path, beta: &[f64]) -> Result<Beside, Error> {
     let given = file::beside(&json::read(file)?);
-    let Some(given) = given.map_err(|reason| Error::json(file, &reason))? else {
+    let Some(given) = given.map_err(|error| of_file(file, error))? else {
         return Ok(Beside::Nothing);
     };
     let (mut missing, mut from_spec) = (Vec::new(), Vec::new());

@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use robot_model_codegen::Compiled;
-use robot_model_codegen::parameters::{self, ValuesError, file};
+use robot_model_codegen::parameters::file::{self, FileError};
+use robot_model_codegen::parameters::{self, ValuesError};
 
 use crate::output::{self, counted, names};
 use crate::{Error, json};
@@ -39,18 +40,17 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
 /// The values of a file by their names.
 fn read(compiled: &Compiled, path: &Path) -> Result<BTreeMap<String, f64>, Error> {
     let values = file::read(&json::read(path)?, &compiled.shape_names());
-    values.map_err(|reason| Error::Json {
-        path: path.to_owned(),
-        line: no_number(&reason).and_then(|name| json::place_of(path, name)),
-        reason,
-    })
+    values.map_err(|error| of_file(path, error))
 }
 
-/// The parameter whose value is no number, as a reason says it.
-fn no_number(reason: &str) -> Option<&str> {
-    let words = reason.strip_prefix("the `value` of ").unwrap_or(reason);
-    let (name, rest) = words.strip_prefix('`')?.split_once('`')?;
-    rest.starts_with(" is ").then_some(name)
+/// An error of a file's form, with the line of the parameter that is at fault.
+fn of_file(path: &Path, error: FileError) -> Error {
+    let name = error.name.as_deref();
+    Error::Json {
+        path: path.to_owned(),
+        line: name.and_then(|name| json::place_of(path, name)),
+        reason: error.reason,
+    }
 }
 
 /// The values of a file by their names, none where there is no file; and what errors call the source.
@@ -157,18 +157,30 @@ mod tests {
     }";
 
     #[test]
-    fn what_is_no_number_is_named() {
-        assert_eq!(
-            no_number("`a.m` is text, but must be a number"),
-            Some("a.m")
-        );
-        assert_eq!(no_number("`a.m` is null; write its value"), Some("a.m"));
-        assert_eq!(
-            no_number("the `value` of `a.m` is text, where .."),
-            Some("a.m")
-        );
-        assert_eq!(no_number("`a.m` has no `value`: write .."), None);
-        assert_eq!(no_number("it is a list: write `{..}`"), None);
+    fn what_is_no_number_has_its_line() {
+        let model = robot_model_spec::load("cart.robot", CART).expect("a spec");
+        let compiled = robot_model_codegen::compile_model(&model);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("fit.json");
+        for (text, place) in [
+            ("{\n \"cart.m\": \"two\"}", Some((2, 2))),
+            ("{\"cart.m\": null}", Some((1, 2))),
+            (
+                "{\"parameters\": [\n{\"name\": \"cart.m\"}]}",
+                Some((2, 10)),
+            ),
+            (
+                "{\"parameters\": [{\"name\": \"cart.m\", \"value\": []}]}",
+                Some((1, 26)),
+            ),
+            ("[1]", None),
+        ] {
+            std::fs::write(&path, text).expect("a file");
+            let Err(Error::Json { line, reason, .. }) = read(&compiled, &path) else {
+                panic!("{text}");
+            };
+            assert_eq!(line, place, "{text}: {reason}");
+        }
     }
 
     #[test]

@@ -9,10 +9,23 @@ use super::axis::Axis;
 use super::page::escaped;
 use crate::output::significant;
 
-const SIZE: (u32, u32) = (380, 270);
+const SIZE: (u32, u32) = (380, 284);
+
+/// Room above a drawing, for the letter by which its caption calls it.
+const HEAD: u32 = 22;
+
+/// Room behind a drawing, for half of a number at the end of its axis.
+const END: u32 = 16;
 
 /// Letters at axes.
 pub(super) const TEXT: (&str, i32) = ("sans-serif", 15);
+
+/// Numbers at axes, which are smaller than what the axes are of.
+const NUMBERS: (&str, i32) = ("sans-serif", 14);
+
+/// Lines of what was measured and of a model: a dark thin one over a light wide one, so that both are seen where they are the same.
+const WIDE: u32 = 4;
+const THIN: u32 = 1;
 
 /// A string takes whatever is drawn on it.
 pub(super) const DRAWN: &str = "drawing on a string does not fail";
@@ -20,6 +33,7 @@ pub(super) const DRAWN: &str = "drawing on a string does not fail";
 /// Stand-ins for colors that the style of the page has.
 pub(super) const GRID: RGBColor = RGBColor(1, 2, 3);
 pub(super) const INK: RGBColor = RGBColor(4, 5, 6);
+const ZERO: RGBColor = RGBColor(16, 17, 18);
 
 /// What is drawn in which color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +56,7 @@ impl Ink {
 
     const fn style(self) -> &'static str {
         match self {
-            Self::Measured => "var(--soft)",
+            Self::Measured => "var(--measured)",
             Self::Before => "var(--before)",
             Self::After => "var(--after)",
         }
@@ -62,6 +76,8 @@ pub(crate) struct Series {
 pub(crate) struct Chart<'a> {
     /// What it says, for those who do not see it.
     pub(super) label: &'a str,
+    /// What its caption calls it, where it stands beside others.
+    pub(super) letter: Option<char>,
     pub(super) x: &'a str,
     pub(super) y: &'a str,
     /// Whether both axes are those of powers of ten; points are then positive.
@@ -95,9 +111,11 @@ impl Chart<'_> {
             let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
             let mut chart = ChartBuilder::on(&root)
                 .margin(6)
+                .margin_top(HEAD)
+                .margin_right(END)
                 .x_label_area_size(42)
                 .y_label_area_size(66)
-                .build_cartesian_2d(axis(x), axis(y))
+                .build_cartesian_2d(axis(x.clone()), axis(y.clone()))
                 .expect(DRAWN);
             let tick = |value: f64, span: f64| {
                 if self.is_logarithmic {
@@ -118,15 +136,28 @@ impl Chart<'_> {
                 .y_label_formatter(&|value| tick(*value, y_span))
                 .x_desc(self.x)
                 .y_desc(self.y)
-                .label_style(TEXT.into_font().color(&INK))
+                .label_style(NUMBERS.into_font().color(&INK))
+                .axis_desc_style(TEXT.into_font().color(&INK))
                 .draw()
                 .expect(DRAWN);
+            if let Some(letter) = self.letter {
+                let bold = TEXT.into_font().style(FontStyle::Bold).color(&INK);
+                let letter = Text::new(format!("({letter})"), (6, 3), bold);
+                root.draw(&letter).expect(DRAWN);
+            }
+            for line in self.zeros(&x, &y) {
+                let line = LineSeries::new(line, ZERO.stroke_width(1));
+                chart.draw_series(line).expect(DRAWN);
+            }
             for series in &self.series {
                 let color = series.color.stand_in();
                 let points = series.points.iter().map(|(x, y)| (place(*x), place(*y)));
                 if series.is_line {
-                    // What was measured is seen on both sides of a model that goes through it.
-                    let width = if series.color == Ink::Measured { 3 } else { 1 };
+                    let width = if series.color == Ink::Measured {
+                        WIDE
+                    } else {
+                        THIN
+                    };
                     let line = LineSeries::new(points, color.stroke_width(width));
                     chart.draw_series(line).expect(DRAWN);
                 } else {
@@ -137,6 +168,18 @@ impl Chart<'_> {
             root.present().expect(DRAWN);
         }
         on_page(&text, self.label, SIZE)
+    }
+
+    /// Lines where one of both axes is at zero, within the drawing.
+    fn zeros(&self, x: &Range<f64>, y: &Range<f64>) -> Vec<[(f64, f64); 2]> {
+        // Beyond the room at both ends, which time that begins at zero has, too.
+        let has_zero = |axis: &Range<f64>| {
+            let edge = ROOM * (axis.end - axis.start);
+            axis.start + edge < 0.0 && 0.0 < axis.end - edge
+        };
+        let across = (!self.is_logarithmic && has_zero(y)).then(|| [(x.start, 0.0), (x.end, 0.0)]);
+        let up = (!self.is_logarithmic && has_zero(x)).then(|| [(0.0, y.start), (0.0, y.end)]);
+        across.into_iter().chain(up).collect()
     }
 }
 
@@ -173,7 +216,8 @@ pub(super) fn on_page(svg: &str, label: &str, (width, height): (u32, u32)) -> St
     let hex = |color: RGBColor| format!("#{:02X}{:02X}{:02X}", color.0, color.1, color.2);
     let mut out = out
         .replace(&hex(GRID), "var(--grid)")
-        .replace(&hex(INK), "currentColor");
+        .replace(&hex(INK), "currentColor")
+        .replace(&hex(ZERO), "var(--soft)");
     for color in Ink::ALL {
         out = out.replace(&hex(color.stand_in()), color.style());
     }
@@ -216,6 +260,9 @@ pub(super) fn tick(value: f64) -> String {
     text.replace('-', "\u{2212}")
 }
 
+/// Room at each end of an axis, as a share of what it shows.
+const ROOM: f64 = 0.05;
+
 /// The values with some room.
 fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
@@ -224,7 +271,7 @@ fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
     if low > high {
         return 0.0..1.0;
     }
-    let room = (0.05 * (high - low)).max(1e-9 * high.abs().max(1.0));
+    let room = (ROOM * (high - low)).max(1e-9 * high.abs().max(1.0));
     low - room..high + room
 }
 
@@ -241,6 +288,7 @@ mod tests {
         };
         let chart = Chart {
             label: "a \"law\"",
+            letter: None,
             x: "x",
             y: "y",
             is_logarithmic: false,
@@ -268,6 +316,7 @@ mod tests {
             }];
             let chart = Chart {
                 label: "ticks",
+                letter: None,
                 x: "x",
                 y: "y",
                 is_logarithmic,
@@ -295,11 +344,46 @@ mod tests {
     fn a_chart_of_nothing_is_empty_axes() {
         let chart = Chart {
             label: "nothing",
+            letter: None,
             x: "x",
             y: "y",
             is_logarithmic: false,
             series: Vec::new(),
         };
         assert!(chart.svg().contains("</svg>"));
+    }
+
+    /// A zero line is drawn where an axis passes zero, and not at its edge; the letter is the first text.
+    #[test]
+    fn drawings_have_zero_lines_and_a_letter() {
+        let svg = |is_logarithmic: bool, points: Vec<(f64, f64)>| {
+            let series = vec![Series {
+                color: Ink::Measured,
+                is_line: true,
+                points,
+            }];
+            let chart = Chart {
+                label: "zeros",
+                letter: Some('b'),
+                x: "x",
+                y: "y",
+                is_logarithmic,
+                series,
+            };
+            chart.svg()
+        };
+        let zeros = |svg: &str| {
+            let lines = svg.lines().filter(|line| line.contains("<poly"));
+            lines.filter(|line| line.contains("var(--soft)")).count()
+        };
+        let around = svg(false, vec![(-1.0, -2.0), (1.0, 2.0)]);
+        assert_eq!(zeros(&around), 2, "{around}");
+        assert!(around.contains("(b)"), "{around}");
+        assert!(around.contains("var(--measured)"), "{around}");
+        let of_time = svg(false, vec![(0.0, -2.0), (9.0, 2.0)]);
+        assert_eq!(zeros(&of_time), 1, "{of_time}");
+        let apart = svg(false, vec![(5.0, 1.0), (9.0, 2.0)]);
+        assert_eq!(zeros(&apart), 0, "{apart}");
+        assert_eq!(zeros(&svg(true, vec![(0.1, 0.1), (9.0, 9.0)])), 0);
     }
 }

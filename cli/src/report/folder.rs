@@ -60,6 +60,18 @@ impl ReportFolder {
     }
 }
 
+/// The folder of the page that comes next to the one in a folder: its name with a word behind it, or the word where it has no name, as `.` has.
+pub(crate) fn beside(folder: &Path, word: &str) -> PathBuf {
+    match folder.file_name() {
+        Some(name) => {
+            let mut name = name.to_owned();
+            name.push(format!("-{word}"));
+            folder.with_file_name(name)
+        }
+        None => word.into(),
+    }
+}
+
 fn made(folder: &Path) -> Result<MadeFolder, Error> {
     MadeFolder::make(folder).map_err(|error| {
         let mut around = folder.ancestors().skip(1);

@@ -18,7 +18,7 @@ pub(crate) use again::again;
 pub(crate) use bars::Bars;
 pub(crate) use chart::Ink;
 pub(crate) use comment::unit_and_meaning;
-pub(crate) use folder::ReportFolder;
+pub(crate) use folder::{ReportFolder, beside};
 pub(crate) use map::Map;
 pub(crate) use page::Page;
 pub(crate) use sections::{as_read, base_parameters, figures, parameters};

@@ -252,8 +252,8 @@ pub(crate) fn figures(
                 &drawn.of_joint(joint, name),
                 &legend,
                 &format!(
-                    "{name}: measured torque and that of the {last} over time, raw samples; residual (measured minus predicted torque) over \
-                     velocity, position, load and time, in the band of the fit; square root of its spectral density, raw samples."
+                    "{name}: (a) measured torque and that of the {last} over time, raw samples; residual (measured minus predicted torque) over \
+                     (b) velocity, (c) position, (d) load and (e) time, in the band of the fit; (f) square root of its spectral density, raw samples."
                 ),
             );
         });

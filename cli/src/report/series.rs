@@ -118,6 +118,7 @@ impl Drawn {
         let last = &self.models[self.models.len() - 1];
         Chart {
             label: &format!("measured and predicted torque of {name} over time"),
+            letter: Some('a'),
             x: "time, s",
             y: &format!("torque, {}", self.units[joint].torque),
             is_logarithmic: false,
@@ -135,7 +136,7 @@ impl Drawn {
             velocity,
             torque,
         } = self.units[joint];
-        let over = |what: &str, unit: &str, of: &[f64]| {
+        let over = |letter: char, what: &str, unit: &str, of: &[f64]| {
             let dots = |model: &OfModel| {
                 let values = &model.filtered[joint];
                 let step = of.len().div_ceil(DOTS).max(1);
@@ -150,6 +151,7 @@ impl Drawn {
             };
             Chart {
                 label: &format!("residual torque of {name} over {what}"),
+                letter: Some(letter),
                 x: &format!("{what}, {unit}"),
                 y: &format!("residual, {torque}"),
                 is_logarithmic: false,
@@ -158,10 +160,10 @@ impl Drawn {
             .svg()
         };
         vec![
-            over("velocity", velocity, &self.velocity[joint]),
-            over("position", position, &self.position[joint]),
-            over("load of the rigid body", torque, &self.load[joint]),
-            over("time", "s", &self.row_time),
+            over('b', "velocity", velocity, &self.velocity[joint]),
+            over('c', "position", position, &self.position[joint]),
+            over('d', "load of the rigid body", torque, &self.load[joint]),
+            over('e', "time", "s", &self.row_time),
             self.spectrum(joint, name),
         ]
     }
@@ -190,6 +192,7 @@ impl Drawn {
         };
         Chart {
             label: &format!("spectrum of the residual torque of {name}"),
+            letter: Some('f'),
             x: "frequency, Hz",
             y: &format!("residual, {}/\u{221a}Hz", self.units[joint].torque),
             is_logarithmic: true,

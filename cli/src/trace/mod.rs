@@ -4,6 +4,7 @@ mod apart;
 #[cfg(test)]
 pub(crate) mod cart;
 mod doubt;
+mod next;
 mod page;
 mod parameters;
 mod report;
@@ -108,9 +109,14 @@ impl TraceArguments {
         let read = progress.noted();
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
-        let page = report
-            .as_ref()
-            .map(|_| page::page((&name, &text), &closed, &files.inputs(), &read));
+        let page = report.as_ref().map(|_| {
+            page::page(
+                (&name, &text),
+                &closed,
+                (&files.inputs(), &read),
+                self.next(&closed),
+            )
+        });
         let page = page.transpose()?;
         // All contents are ready before the first file appears.
         let unseen = closed.unseen.as_ref();

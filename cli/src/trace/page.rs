@@ -7,15 +7,16 @@ use robot_model::trace::{FloorFrom, Outcome};
 
 use super::apart::apart;
 use super::doubt::{doubts, on_joints};
+use super::next::Next;
 use super::parameters::{found, parameters as of_all};
 use super::report::effect;
-use super::said::{errors_of, fall, nothing_added, outcome, parameter, sentence};
+use super::said::{errors_of, fall, nothing_added, outcome, parameter};
 use super::tried::rows;
 use super::whereabouts::structure_left;
 use crate::Error;
 use crate::close_the_loop::{Loop, Stage};
 use crate::diff::diff;
-use crate::output::significant;
+use crate::output::{sentence, significant, unmarked};
 use crate::report::{
     Bars, Drawn, Ink, Page, Shown, again, as_read, base_parameters, figures, parameters,
 };
@@ -23,19 +24,25 @@ use crate::report::{
 /// Joints whose figures are open from the start.
 const OPEN: usize = 2;
 
-/// The page on a traced spec at a path, whose text is given, and on files that were read, with what was noted of these.
+/// The page on a traced spec at a path, whose text is given, and on files that were read, with what was noted of these; and what comes next.
 pub(super) fn page(
     (spec, text): (&str, &str),
     closed: &Loop,
-    inputs: &[PathBuf],
-    read: &[String],
+    (inputs, read): (&[PathBuf], &[String]),
+    next: Option<Next>,
 ) -> Result<String, Error> {
     let mut page = Page::new(
         &format!("Trace of {}", closed.before.arm.compiled().model.name),
         &format!("Effects in the logs that {spec} does not declare."),
     );
     page.section("Verdict");
-    verdict(&mut page, spec, text, closed);
+    verdict(&mut page, closed);
+    if let Some(next) = next {
+        page.part("Next");
+        page.text(&next.what);
+        page.preformatted(&next.commands.join("\n"));
+    }
+    open_questions(&mut page, spec, text, closed);
     page.section(if closed.changed.is_some() {
         "Errors before and after"
     } else {
@@ -52,7 +59,7 @@ pub(super) fn page(
     page.section("What was tried");
     tried(&mut page, closed);
     page.section("Data");
-    let plain = |note: &String| note.strip_prefix("note: ").unwrap_or(note).to_owned();
+    let plain = |note: &String| unmarked(note).to_owned();
     as_read(&mut page, &read.iter().map(plain).collect::<Vec<_>>());
     data(&mut page, closed);
     page.section("Parameters");
@@ -65,7 +72,7 @@ pub(super) fn page(
     Ok(page.finish())
 }
 
-fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
+fn verdict(page: &mut Page, closed: &Loop) {
     let verdict = &closed.verdict;
     let (class, word) = match closed.outcome() {
         Outcome::NothingMissing => ("good", "Nothing missing"),
@@ -104,6 +111,11 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     if !items.is_empty() {
         page.list(&items);
     }
+}
+
+/// What the logs leave open.
+fn open_questions(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
+    let verdict = &closed.verdict;
     if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
         page.part("Effects these logs cannot distinguish from it");
         let open = apart(spec, text, closed);

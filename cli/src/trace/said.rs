@@ -133,13 +133,6 @@ fn falls(names: &[String], before: &[f64], after: &[f64]) -> Option<String> {
     ))
 }
 
-/// With a capital and a full stop.
-pub(super) fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string());
-    format!("{}{}.", first.unwrap_or_default(), letters.as_str())
-}
-
 /// What errors before and after are of, beside what [`ERRORS`](crate::output::ERRORS) says: how joints turn round, and bands where they differ.
 pub(super) fn errors_of(closed: &Loop) -> Vec<String> {
     turning(closed).into_iter().chain(bands(closed)).collect()

@@ -54,6 +54,33 @@ fn import_refuses_what_it_cannot_use() {
         lines.collect::<Vec<usize>>()
     });
     assert!(line.len() == 1 && line == caret, "{said}");
+    // So is what parses and is no arm.
+    for (from, to, reason, caret) in [
+        (
+            "<parent link=\"base\"/>",
+            "<parent link=\"bas\"/>",
+            "line 7: the URDF has no link `bas`; write `base`",
+            "^^^^^^^^^^",
+        ),
+        (
+            "<axis xyz=\"0 1 0\"/>",
+            "<axis xyz=\"0 0 0\"/>",
+            "line 9: joint `swing` has an axis without direction",
+            "^^^^^^^^^^^",
+        ),
+    ] {
+        assert!(URDF.contains(from), "{from}");
+        folder.write("tree.urdf", &URDF.replacen(from, to, 1));
+        let said = folder.refuse(&["import", "tree.urdf", "-o", "arm.robot"]);
+        assert!(
+            said.starts_with(&format!("error: tree.urdf: {reason}")),
+            "{said}"
+        );
+        let marked = said
+            .lines()
+            .any(|line| line.trim_start_matches([' ', '|']).trim_end() == caret);
+        assert!(marked, "{said}");
+    }
     // Fingers are no end of an arm; what carries them is.
     let fingers = ["left", "right"].map(|side| {
         format!(

@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use crate::common::{Folder, cart_with, folding, moved, tones};
 
-/// Runs a command, presses Ctrl-C when a line on standard error begins so and a while after, and says how it ended.
+/// Runs a command, presses Ctrl-C when a line on standard error begins so and a while after, and says how it ended. The last
+/// line tells that no file was written.
 fn interrupted(folder: &Folder, arguments: &[&str], at: &str, after: Duration) -> Option<i32> {
     let mut work = Command::new(env!("CARGO_BIN_EXE_robot-model"))
         .current_dir(folder.path("."))
@@ -36,6 +37,10 @@ fn interrupted(folder: &Folder, arguments: &[&str], at: &str, after: Duration) -
     let code = work.wait().expect("an end").code();
     stderr.read_to_string(&mut said).expect("text");
     assert!(!said.contains("panicked"), "{said}");
+    assert!(
+        said.ends_with("\ninterrupted: no file was written\n"),
+        "{said}"
+    );
     code
 }
 

@@ -30,6 +30,7 @@ mod eval;
 mod every;
 mod excite;
 mod export;
+mod export_plain;
 mod export_rotors;
 mod filtered_factors;
 mod friction;

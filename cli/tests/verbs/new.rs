@@ -44,6 +44,24 @@ fn with_examples_of_comments(spec: &str) -> String {
 }
 
 #[test]
+fn another_name_than_the_one_that_was_asked_for_is_told() {
+    let folder = Folder::new();
+    let run = folder.run(&["new", "2Link", "-o", "arm.robot"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stderr
+            .starts_with("note: the robot is called `Robot2Link`, in place of `2Link`: "),
+        "{}",
+        run.stderr
+    );
+    assert!(folder.read("arm.robot").contains("robot Robot2Link {"));
+    for plain in ["Picker", "picker"] {
+        let run = folder.run(&["new", plain, "-o", "arm.robot", "--force"]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{plain}");
+    }
+}
+
+#[test]
 fn every_starter_is_sound_as_it_is_and_with_what_its_comments_say() {
     for (variant, options) in VARIANTS {
         let folder = Folder::new();

@@ -164,6 +164,7 @@ fn a_report_has_enough_contrast() {
             ("--open", "--panel", 3.0),
             ("--before", "--paper", 3.0),
             ("--after", "--paper", 3.0),
+            ("--measured", "--paper", 3.0),
         ];
         for (front, back, least) in pairs {
             let found = contrast(&colors[front], &colors[back]);

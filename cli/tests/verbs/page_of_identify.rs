@@ -245,7 +245,7 @@ fn a_refused_identification_leaves_no_report() {
     assert_eq!(folder.files(), before);
 }
 
-/// Seven joints for a minute at 100 Hz, and as long a log to judge by: torques of no arm, of which a page has as much to draw as of any.
+/// Seven joints for a minute at 1 kHz, and as long a log to judge by: torques of no arm, of which a page has as much to draw as of any.
 #[test]
 fn the_report_of_seven_joints_and_a_minute_is_light() {
     let folder = Folder::new();
@@ -262,8 +262,8 @@ fn the_report_of_seven_joints_and_a_minute_is_light() {
     let mut state = 7;
     for file in ["log.csv", "other.csv"] {
         let mut log = String::from("time,q1,q2,q3,q4,q5,q6,q7,tau1,tau2,tau3,tau4,tau5,tau6,tau7");
-        for row in 0..=6000 {
-            let t = f64::from(row) / 100.0;
+        for row in 0..=60_000 {
+            let t = f64::from(row) / 1000.0;
             let of = |joint: i32| (t * (1.0 + 0.37 * f64::from(joint))).sin();
             let positions = (0..7).map(of);
             let torques = (0..7).map(|joint| 5.0 * of(joint + 1) + white(&mut state));

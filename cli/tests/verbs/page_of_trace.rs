@@ -78,6 +78,43 @@ fn a_verdict_has_units_and_the_fall_of_the_error() {
     assert!(has(fall, " % of its torque"), "{items:?}");
 }
 
+/// The command of each page leads to the next one.
+#[test]
+fn the_next_command_of_a_page_is_one_that_can_be_given() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 4.0, 0.0));
+    let next = || {
+        let html = folder.read("page/index.html");
+        let rest = html.split_once("<h3>Next</h3>").expect("a next command").1;
+        let (command, _) = rest.split_once("</pre>").expect("an end");
+        let (_, commands) = command.split_once("<pre>").expect("commands");
+        let first = commands.lines().next().expect("a command").to_owned();
+        // It stands above the figures.
+        assert!(html.find("<h3>Next</h3>") < html.find("<svg"), "{html}");
+        first
+    };
+    let given = |command: &str| {
+        let words = shlex::split(command).expect("a command of a shell");
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        assert_eq!(words[0], "robot-model");
+        folder.succeed(&words[1..])
+    };
+    given("robot-model trace cart.robot log.csv --report page");
+    given(&next());
+    let amended = folder.read("cart-amended.robot");
+    assert!(amended.contains("coulomb_friction on rail"), "{amended}");
+    given("robot-model trace cart-amended.robot log.csv --report page");
+    let told = given(&next());
+    assert!(told.contains("rail.coulomb_friction.fc"), "{told}");
+    assert!(folder.read("fit.json").contains("coulomb_friction"));
+    assert!(
+        folder
+            .read("page-fit/index.html")
+            .contains("Identification")
+    );
+}
+
 /// The shapes of what was found have rows among the parameters, and each interval is the one of the verdict.
 #[test]
 fn shapes_of_what_was_found_are_parameters_with_the_intervals_of_the_verdict() {

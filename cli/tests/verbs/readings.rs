@@ -51,6 +51,9 @@ fn degrees_within_all_limits_are_told_by_the_torques() {
             .filter_map(|note| note.as_str())
             .any(|note| note.contains(ASKED));
         assert_eq!(is_noted, said.stderr.contains(ASKED));
+        // It is no note among others.
+        let warned = said.stderr.lines().filter(|line| line.contains(ASKED));
+        assert!(warned.into_iter().all(|line| line.starts_with("warning: ")));
         is_noted
     };
     assert!(told("plain.robot", "degrees.csv"));

@@ -29,6 +29,7 @@ impl RankStatus {
 
 /// A column that is neither clearly independent nor clearly dependent.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct UnclearColumn {
     /// Name of the standard parameter.
     pub name: String,

@@ -17,6 +17,7 @@ use crate::optimize::{self, Cost, optimize};
 
 /// Torques and matrices, as of [`Dynamics`](super::Dynamics).
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Computed {
     /// `M ddq + C dq + G`
     pub rigid_torque: Vec<ExprId>,

@@ -39,6 +39,15 @@ pub fn parse(text: &str) -> Result<Value, Fault> {
     parse_within(text, MOST_MEMORY)
 }
 
+/// Line and column, from 1, of a text in quotation marks, where it stands first.
+#[must_use]
+pub fn place_of(file: &str, text: &str) -> Option<(usize, usize)> {
+    let before = &file[..file.find(&Value::from(text).to_string())?];
+    let line = before.matches('\n').count() + 1;
+    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    Some((line, column))
+}
+
 fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
     let notes = Notes {
         room: Cell::new(Some(most)),

@@ -188,6 +188,7 @@ pub struct EffectState {
 
 /// `torque(j) = ...` of an effect definition.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct EffectTorque {
     /// Index of the formal joint.
     pub joint: usize,

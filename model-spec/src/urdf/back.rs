@@ -44,7 +44,8 @@ pub fn write_back(
 ) -> Result<WrittenBack, ExportError> {
     chain_of(model)?;
     let parse = |said: String| ExportError::Parse(place::explain(urdf, &said));
-    size::check(urdf).map_err(|error| match error {
+    let checked = size::check(urdf).and_then(|()| place::check_elements(urdf));
+    checked.map_err(|error| match error {
         ImportError::Parse(fault) => ExportError::Parse(fault),
         other => ExportError::Original(other.to_string()),
     })?;

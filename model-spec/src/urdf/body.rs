@@ -3,8 +3,9 @@
 use urdf_rs::{JointType, Link};
 
 use super::held::Held;
-use super::tree::{Chain, ChainJoint, Tree, origin};
-use super::{ImportError, Inertials};
+use super::pose::{origin, origin_of};
+use super::tree::{Chain, ChainJoint, Tree};
+use super::{ImportError, Inertials, UrdfPart};
 use crate::export::Body;
 use crate::inertia::has_a_body;
 use crate::model::Transform;
@@ -57,10 +58,7 @@ pub(super) fn parts<'a>(
             if chain.index(next).is_some() {
                 continue;
             }
-            let here = origin(
-                &next.origin,
-                &format!("the origin of joint `{}`", next.name),
-            )?;
+            let here = origin_of(next)?;
             let mut behind = pose.then(&here);
             if next.joint_type != JointType::Fixed {
                 let joint = Held::new(tree, chain, next)?;
@@ -107,10 +105,15 @@ pub(super) fn impossible(links: &[String], carried: &[Carried]) -> Vec<String> {
 
 /// What the language refuses, in the words of the URDF.
 fn check(link: &Link) -> Result<(), ImportError> {
-    let refuse = |reason: String| {
+    let refuse = |name: &'static str, reason: String| {
+        let part = match name {
+            "mass" => UrdfPart::of_link(&link.name, "inertial/mass").attribute("value"),
+            name => UrdfPart::of_link(&link.name, "inertial/inertia").attribute(name),
+        };
         Err(ImportError::Inertial {
             link: link.name.clone(),
             reason,
+            part,
         })
     };
     let (mass, i) = (link.inertial.mass.value, &link.inertial.inertia);
@@ -125,12 +128,18 @@ fn check(link: &Link) -> Result<(), ImportError> {
     ];
     for (name, value) in named.into_iter().filter(|(_, value)| value.is_finite()) {
         if !is_in_range(value) {
-            return refuse(format!(
-                "`{name}` {value:e}, too large or too small to compute with: write zero, or a value between 1e-30 and 1e30"
-            ));
+            return refuse(
+                name,
+                format!(
+                    "`{name}` {value:e}, too large or too small to compute with: write zero, or a value between 1e-30 and 1e30"
+                ),
+            );
         }
         if value < 0.0 && ["mass", "ixx", "iyy", "izz"].contains(&name) {
-            return refuse(format!("a negative `{name}`, {value}: write zero or more"));
+            return refuse(
+                name,
+                format!("a negative `{name}`, {value}: write zero or more"),
+            );
         }
     }
     Ok(())
@@ -140,7 +149,8 @@ fn check(link: &Link) -> Result<(), ImportError> {
 pub(super) fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
     let inertial = &link.inertial;
     let what = format!("the inertial of link `{}`", link.name);
-    let frame = pose.then(&origin(&inertial.origin, &what)?);
+    let part = UrdfPart::of_link(&link.name, "inertial/origin");
+    let frame = pose.then(&origin(&inertial.origin, &what, part)?);
     let i = &inertial.inertia;
     let here = [
         [i.ixx, i.ixy, i.ixz],
@@ -153,7 +163,8 @@ pub(super) fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
         .chain([&inertial.mass.value])
         .all(|x| x.is_finite())
     {
-        return Err(ImportError::NotFinite { what });
+        let part = Some(UrdfPart::of_link(&link.name, "inertial"));
+        return Err(ImportError::NotFinite { what, part });
     }
     let own = Body {
         mass: inertial.mass.value,

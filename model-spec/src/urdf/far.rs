@@ -2,7 +2,7 @@
 
 use urdf_rs::Robot;
 
-use super::ImportError;
+use super::{ImportError, UrdfPart};
 use crate::transform::is_in_range;
 
 /// The first joint or link with a number that is beyond what is computed with.
@@ -16,6 +16,7 @@ pub(super) fn number(robot: &Robot) -> Option<ImportError> {
         Some(ImportError::Joint {
             joint: joint.name.clone(),
             reason: format!("has {}", said(number, what)),
+            part: UrdfPart::of_joint(&joint.name, what).attribute("xyz"),
         })
     });
     of_joints.or_else(|| {
@@ -36,12 +37,20 @@ pub(super) fn number(robot: &Robot) -> Option<ImportError> {
             Some(ImportError::Inertial {
                 link: link.name.clone(),
                 reason: said(number, what),
+                part: UrdfPart::of_link(
+                    &link.name,
+                    match what {
+                        "mass" => "inertial/mass",
+                        "inertia" => "inertial/inertia",
+                        _ => "inertial/origin",
+                    },
+                ),
             })
         })
     })
 }
 
-fn far<'a>(numbers: &[f64], what: &'a str) -> Option<(f64, &'a str)> {
+fn far(numbers: &[f64], what: &'static str) -> Option<(f64, &'static str)> {
     let far = numbers.iter().find(|number| !is_in_range(**number));
     far.map(|number| (*number, what))
 }

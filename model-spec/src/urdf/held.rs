@@ -5,7 +5,7 @@ use urdf_rs::{Joint, JointType};
 use super::ImportError;
 use super::body::Carried;
 use super::mimic::ties;
-use super::tree::{Chain, Tree};
+use super::tree::{Chain, Tree, without_direction};
 use super::write::number;
 use crate::model::Transform;
 use crate::transform::rotation_about;
@@ -35,10 +35,7 @@ impl<'a> Held<'a> {
             follows: on_chain.map(|tie| tie.leader.name.as_str()),
         };
         if held.position != 0.0 && held.direction().is_none() {
-            return Err(ImportError::Joint {
-                joint: joint.name.clone(),
-                reason: "has an axis without direction: write its `<axis xyz=..>`".to_owned(),
-            });
+            return Err(without_direction(&joint.name));
         }
         Ok(held)
     }

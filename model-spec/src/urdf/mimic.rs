@@ -8,9 +8,10 @@ use std::fmt::Write as _;
 
 use urdf_rs::{Joint, JointType};
 
-use super::ImportError;
-use super::tree::{Chain, Tree, meant};
+use super::pose::meant;
+use super::tree::{Chain, Tree};
 use super::write::{Names, number, readable};
+use super::{ImportError, UrdfPart};
 use crate::suggest;
 
 /// `q(follower) = factor * q(leader) + offset`
@@ -30,6 +31,7 @@ pub(super) fn ties<'a>(tree: &Tree<'a>, joint: &'a Joint) -> Result<Vec<Tie<'a>>
             Err(ImportError::Joint {
                 joint: joint.name.clone(),
                 reason,
+                part: UrdfPart::of_joint(&joint.name, "mimic"),
             })
         };
         let Some(leader) = tree.joint(&mimic.joint) else {
@@ -63,6 +65,7 @@ pub(super) fn ties<'a>(tree: &Tree<'a>, joint: &'a Joint) -> Result<Vec<Tie<'a>>
         if !(factor.is_finite() && offset.is_finite()) {
             return Err(ImportError::NotFinite {
                 what: format!("the place where joint `{}` mimics another", joint.name),
+                part: Some(UrdfPart::of_joint(&joint.name, "mimic")),
             });
         }
         ties.push(Tie {

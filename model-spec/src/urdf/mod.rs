@@ -15,6 +15,8 @@ mod fault;
 mod held;
 mod mimic;
 mod place;
+mod pose;
+mod rules;
 mod size;
 mod tree;
 mod unlikely;
@@ -23,7 +25,7 @@ mod write;
 use thiserror::Error;
 
 pub use back::{WrittenBack, write_back};
-pub use fault::UrdfFault;
+pub use fault::{UrdfFault, UrdfPart, UrdfPlace};
 
 use crate::diagnostic::Diagnostics;
 
@@ -83,10 +85,17 @@ pub enum ImportError {
         name: String,
         /// What to write instead.
         help: String,
+        /// What names it; none where an argument does.
+        part: Option<UrdfPart>,
     },
     /// The joints do not form one tree, or no chain leads from base to tip.
-    #[error("{0}")]
-    Structure(String),
+    #[error("{reason}")]
+    Structure {
+        /// What is wrong with it, and what to do.
+        reason: String,
+        /// What it is about, where that is one joint or link.
+        part: Option<UrdfPart>,
+    },
     /// Several chains start at the base.
     #[error("the tree branches at link `{at}`: choose the chain's end with --tip, one of {}", ends(at, *.is_hand, tips))]
     Branches {
@@ -104,6 +113,8 @@ pub enum ImportError {
         joint: String,
         /// What it is, and what to do.
         reason: String,
+        /// What of it.
+        part: UrdfPart,
     },
     /// An inertial that the language refuses.
     #[error("link `{link}` has {reason}")]
@@ -112,12 +123,16 @@ pub enum ImportError {
         link: String,
         /// What it has, and what to do.
         reason: String,
+        /// What of it.
+        part: UrdfPart,
     },
     /// A number that is not one.
     #[error("{what} is not finite: write a number")]
     NotFinite {
         /// Which number.
         what: String,
+        /// Where it stands; none where that is an argument.
+        part: Option<UrdfPart>,
     },
     /// The list of effects is at fault.
     #[error("--effects: {0}")]
@@ -125,6 +140,26 @@ pub enum ImportError {
     /// The spec that comes out breaks a rule of the language.
     #[error("the spec that it would become is refused, in lines that are not written:\n{0}")]
     Refused(Diagnostics),
+}
+
+impl ImportError {
+    /// Where in its text a URDF is at fault; none where the text as a whole is, or an argument.
+    #[must_use]
+    pub fn place(&self, urdf: &str) -> Option<UrdfPlace> {
+        let part = match self {
+            Self::Parse(fault) => return fault.place.clone(),
+            Self::UnknownLink { part, .. }
+            | Self::Structure { part, .. }
+            | Self::NotFinite { part, .. } => part.as_ref()?,
+            Self::Joint { part, .. } | Self::Inertial { part, .. } => part,
+            Self::Branches { .. } | Self::Effects(_) | Self::Refused(_) => return None,
+        };
+        UrdfPlace::of_part(urdf, part)
+    }
+
+    fn structure(reason: String) -> Self {
+        Self::Structure { reason, part: None }
+    }
 }
 
 /// The links that a chain can end at, the likeliest first.
@@ -153,6 +188,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
     if !options.gravity.iter().flatten().all(|g| g.is_finite()) {
         return Err(ImportError::NotFinite {
             what: "--gravity".to_owned(),
+            part: None,
         });
     }
     size::check(urdf)?;
@@ -181,7 +217,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
     let gravity = options.gravity.is_none().then(write::assumed_gravity);
     let notes = [
         gravity.into_iter().collect(),
-        tree::notes(&robot),
+        pose::notes(&robot),
         warnings.clone(),
     ]
     .concat();

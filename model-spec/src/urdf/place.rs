@@ -7,124 +7,33 @@ use xml::common::Position as _;
 use xml::name::OwnedName;
 use xml::reader::{EventReader, XmlEvent};
 
-use super::{ImportError, UrdfFault};
-
-/// What an attribute has to be.
-#[derive(Clone, Copy)]
-enum Kind {
-    Text,
-    Numbers(usize),
-    JointType,
-}
-
-use Kind::{JointType, Numbers, Text};
-
-/// Its name, what it has to be, whether it has to be there.
-type Attribute = (&'static str, Kind, bool);
-
-/// Elements below `robot`, their attributes, and whether these have to be there. `collision` is read as `visual`.
-const ATTRIBUTES: [(&str, &[Attribute]); 23] = [
-    ("link", &[("name", Text, true)]),
-    ("link/inertial/origin", &POSE),
-    ("link/inertial/mass", &[("value", Numbers(1), true)]),
-    (
-        "link/inertial/inertia",
-        &[
-            ("ixx", Numbers(1), true),
-            ("ixy", Numbers(1), true),
-            ("ixz", Numbers(1), true),
-            ("iyy", Numbers(1), true),
-            ("iyz", Numbers(1), true),
-            ("izz", Numbers(1), true),
-        ],
-    ),
-    ("link/visual/origin", &POSE),
-    ("link/visual/geometry/box", &[("size", Numbers(3), true)]),
-    ("link/visual/geometry/cylinder", &TUBE),
-    ("link/visual/geometry/capsule", &TUBE),
-    (
-        "link/visual/geometry/sphere",
-        &[("radius", Numbers(1), true)],
-    ),
-    (
-        "link/visual/geometry/mesh",
-        &[("filename", Text, true), ("scale", Numbers(3), false)],
-    ),
-    ("link/visual/material", &[("name", Text, true)]),
-    ("link/visual/material/color", &COLOR),
-    ("link/visual/material/texture", &[("filename", Text, true)]),
-    ("material", &[("name", Text, true)]),
-    ("material/color", &COLOR),
-    ("joint", &[("name", Text, true), ("type", JointType, true)]),
-    ("joint/origin", &POSE),
-    ("joint/parent", &[("link", Text, true)]),
-    ("joint/child", &[("link", Text, true)]),
-    ("joint/axis", &[("xyz", Numbers(3), true)]),
-    (
-        "joint/limit",
-        &[
-            ("lower", Numbers(1), false),
-            ("upper", Numbers(1), false),
-            ("effort", Numbers(1), false),
-            ("velocity", Numbers(1), true),
-        ],
-    ),
-    (
-        "joint/dynamics",
-        &[
-            ("damping", Numbers(1), false),
-            ("friction", Numbers(1), false),
-        ],
-    ),
-    (
-        "joint/mimic",
-        &[
-            ("joint", Text, true),
-            ("multiplier", Numbers(1), false),
-            ("offset", Numbers(1), false),
-        ],
-    ),
-];
-
-const POSE: [Attribute; 2] = [("xyz", Numbers(3), false), ("rpy", Numbers(3), false)];
-const TUBE: [Attribute; 2] = [("radius", Numbers(1), true), ("length", Numbers(1), true)];
-const COLOR: [Attribute; 1] = [("rgba", Numbers(4), true)];
-
-/// Elements with parts that each stand there once, and which of them have to.
-const PARTS: [(&str, &[&str], &[&str]); 4] = [
-    ("link", &["inertial"], &[]),
-    (
-        "link/inertial",
-        &["origin", "mass", "inertia"],
-        &["mass", "inertia"],
-    ),
-    ("link/visual", &["origin", "geometry"], &["geometry"]),
-    (
-        "joint",
-        &[
-            "origin", "parent", "child", "axis", "limit", "dynamics", "mimic",
-        ],
-        &["parent", "child"],
-    ),
-];
-
-const JOINT_TYPES: [&str; 7] = [
-    "revolute",
-    "continuous",
-    "prismatic",
-    "fixed",
-    "floating",
-    "planar",
-    "spherical",
-];
-
-const XACRO: &str = "is of xacro: expand the file first, `xacro arm.urdf.xacro > arm.urdf`";
+use super::rules::{ATTRIBUTES, PARTS, XACRO, wrong};
+use super::{ImportError, UrdfFault, UrdfPlace};
 
 /// An element that is not closed yet.
 struct Open {
     name: String,
     line: u64,
+    /// Its number among all elements of the text.
+    number: usize,
     parts: Vec<String>,
+}
+
+/// Something wrong with an element, or with one of its attributes.
+struct Wrong {
+    element: usize,
+    attribute: Option<&'static str>,
+    line: u64,
+    reason: String,
+}
+
+/// What is asked of a text.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Asked {
+    /// What the library that reads URDFs goes past without a word, and would read as another robot.
+    Unnoticed,
+    /// Every rule of this file.
+    All,
 }
 
 fn other_root(name: &str) -> String {
@@ -136,31 +45,12 @@ fn is_of_xacro(name: &OwnedName) -> bool {
     name.prefix.as_deref() == Some("xacro") || name.namespace.as_deref().is_some_and(is_named)
 }
 
-/// Refuses a file of another root, of which what reads URDFs would say that it has no links, and one that is to be expanded first.
+/// Refuses a file of another root, of which what reads URDFs would say that it has no links, one that is to be expanded first, and numbers
+/// with words before, between or behind them.
 pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
-    let mut reader = EventReader::from_str(urdf);
-    let mut is_root = true;
-    loop {
-        let event = reader.next();
-        let line = reader.position().row + 1;
-        let fault = match event {
-            // What reads URDFs goes past it, and so past all that it would expand to.
-            Ok(XmlEvent::StartElement { name, .. }) if is_of_xacro(&name) => {
-                let prefix = name.prefix.as_deref().unwrap_or_default();
-                format!("`<{prefix}:{}>` {XACRO}", name.local_name)
-            }
-            Ok(XmlEvent::StartElement { name, .. }) if is_root && name.local_name != "robot" => {
-                other_root(&name.local_name)
-            }
-            Ok(XmlEvent::StartElement { .. }) => {
-                is_root = false;
-                continue;
-            }
-            // What is no XML is told by what reads it.
-            Ok(XmlEvent::EndDocument) | Err(_) => return Ok(()),
-            Ok(_) => continue,
-        };
-        return Err(ImportError::Parse(UrdfFault::in_line(line, fault)));
+    match first_fault(urdf, Asked::Unnoticed) {
+        Some(fault) => Err(ImportError::Parse(fault)),
+        None => Ok(()),
     }
 }
 
@@ -173,53 +63,97 @@ pub(super) fn explain(urdf: &str, said: &str) -> UrdfFault {
             "`<!ENTITY ..>` declares an entity, and URDFs are read without them: write what it stands for in its place",
         );
     }
+    first_fault(urdf, Asked::All).unwrap_or_else(|| UrdfFault::of_all(said))
+}
+
+/// The first place of the text that breaks a rule.
+fn first_fault(urdf: &str, asked: Asked) -> Option<UrdfFault> {
     let mut reader = EventReader::from_str(urdf);
     let mut open: Vec<Open> = Vec::new();
     let mut owner = String::new();
+    let mut count = 0;
     loop {
         let event = reader.next();
         let line = reader.position().row + 1;
-        let fault = match event {
+        let wrong = match event {
             Ok(XmlEvent::StartElement {
                 name, attributes, ..
             }) => {
-                let prefix = name.prefix.as_deref();
-                let written = name.local_name;
                 if open.len() == 1 {
-                    owner = owner_of(&written, &attributes);
+                    owner = owner_of(&name.local_name, &attributes);
                 }
-                let again = second(&mut open, &written);
+                let again = second(&mut open, &name.local_name);
+                let number = count;
+                count += 1;
                 open.push(Open {
-                    name: written.clone(),
+                    name: name.local_name.clone(),
                     line,
+                    number,
                     parts: Vec::new(),
                 });
-                let fault = if prefix == Some("xacro") {
-                    Some(format!("`<xacro:{written}>` {XACRO}"))
-                } else if open.len() == 1 && written != "robot" {
-                    Some(other_root(&written))
-                } else if again {
-                    Some(format!("a second `<{written}>` in {owner}: keep one"))
+                let fault = if again && asked == Asked::All {
+                    let reason = format!("a second `<{}>` in {owner}: keep one", name.local_name);
+                    Some((None, reason))
                 } else {
-                    fault_of(&path(&open), &written, &attributes, &owner)
+                    opening_fault(&open, &name, &attributes, &owner, asked)
                 };
-                fault.map(|fault| (line, fault))
+                fault.map(|(attribute, reason)| Wrong {
+                    element: number,
+                    attribute,
+                    line,
+                    reason,
+                })
             }
             Ok(XmlEvent::EndElement { .. }) => {
-                let fault = missing_part(&open, &owner);
-                open.pop().and_then(|end| Some((end.line, fault?)))
+                let reason = (asked == Asked::All).then(|| missing_part(&open, &owner));
+                let end = open.pop();
+                end.zip(reason.flatten()).map(|(end, reason)| Wrong {
+                    element: end.number,
+                    attribute: None,
+                    line: end.line,
+                    reason,
+                })
             }
-            Ok(XmlEvent::EndDocument) => return UrdfFault::of_all(said),
+            Ok(XmlEvent::EndDocument) => return None,
             Ok(_) => None,
             Err(error) => {
+                // What is no XML is told where the library has refused it.
                 let line = error.position().row + 1;
-                return UrdfFault::in_line(line, not_xml(error.msg(), &open));
+                let all = asked == Asked::All;
+                return all.then(|| UrdfFault::in_line(line, not_xml(error.msg(), &open)));
             }
         };
-        if let Some((line, fault)) = fault {
-            return UrdfFault::in_line(line, fault);
+        if let Some(wrong) = wrong {
+            let place = UrdfPlace::of_element(urdf, wrong.element, wrong.attribute);
+            let place = place.unwrap_or_else(|| UrdfPlace::line(wrong.line));
+            return Some(UrdfFault::at(place, wrong.reason));
         }
     }
+}
+
+/// What is wrong with the beginning of the innermost element, and with which of its attributes.
+fn opening_fault(
+    open: &[Open],
+    name: &OwnedName,
+    attributes: &[OwnedAttribute],
+    owner: &str,
+    asked: Asked,
+) -> Option<(Option<&'static str>, String)> {
+    let written = &name.local_name;
+    // What reads URDFs goes past it, and so past all that it would expand to.
+    if is_of_xacro(name) {
+        let prefix = name.prefix.as_deref().unwrap_or_default();
+        return Some((None, format!("`<{prefix}:{written}>` {XACRO}")));
+    }
+    if open.len() == 1 && written != "robot" {
+        return Some((None, other_root(written)));
+    }
+    let path = path(open);
+    let decides = path.starts_with("joint/") || path.starts_with("link/inertial/");
+    if asked == Asked::All || decides {
+        return fault_of(&path, written, attributes, owner, asked);
+    }
+    None
 }
 
 /// Where an entity is declared, outside of comments.
@@ -282,48 +216,22 @@ fn fault_of(
     element: &str,
     attributes: &[OwnedAttribute],
     owner: &str,
-) -> Option<String> {
+    asked: Asked,
+) -> Option<(Option<&'static str>, String)> {
     let (_, known) = ATTRIBUTES.iter().find(|(known, _)| *known == path)?;
     known.iter().find_map(|(name, kind, needed)| {
         let written = attributes.iter().find(|a| a.name.local_name == *name);
         let Some(written) = written else {
-            return needed.then(|| {
-                format!("`<{element}>` of {owner} has no `{name}`: write `{name}=\"..\"`")
-            });
+            let reason =
+                || format!("`<{element}>` of {owner} has no `{name}`: write `{name}=\"..\"`");
+            return (*needed && asked == Asked::All).then(|| (None, reason()));
         };
         let value = written.value.trim();
         let why = wrong(value, *kind)?;
-        Some(format!(
-            "`{name}=\"{value}\"` in `<{element}>` of {owner} {why}"
+        Some((
+            Some(*name),
+            format!("`{name}=\"{value}\"` in `<{element}>` of {owner} {why}"),
         ))
-    })
-}
-
-/// Why a value is not of its kind.
-fn wrong(value: &str, kind: Kind) -> Option<String> {
-    let is_right = match kind {
-        Text => true,
-        JointType => JOINT_TYPES.contains(&value),
-        Numbers(1) => value.parse::<f64>().is_ok(),
-        Numbers(count) => {
-            let numbers: Vec<_> = value.split_whitespace().map(str::parse::<f64>).collect();
-            numbers.len() == count && numbers.iter().all(Result::is_ok)
-        }
-    };
-    if is_right {
-        return None;
-    }
-    if value.contains("${") || value.contains("$(") {
-        return Some(XACRO.to_owned());
-    }
-    Some(match kind {
-        Text => return None,
-        JointType => format!(
-            "is no type of a joint: write one of {}",
-            JOINT_TYPES.join(", ")
-        ),
-        Numbers(1) => "is no number: write it in SI units, without a unit".to_owned(),
-        Numbers(count) => format!("is not {count} numbers: write them with blanks between"),
     })
 }
 

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use urdf_rs::{Joint, JointType, Link, Robot};
 
-use super::ImportError;
+use super::pose::{meant, origin_of};
+use super::{ImportError, UrdfPart};
 use crate::model::Transform;
 use crate::suggest;
-use crate::transform::{quarter_turns, rotation_rpy, rounded_quarter_turn};
 
 /// Links and joints by name; every link has one parent joint at most, and there are no loops.
 pub(super) struct Tree<'a> {
@@ -53,9 +53,10 @@ impl<'a> Tree<'a> {
         let mut seen = BTreeSet::new();
         let mut names = robot.links.iter().map(|link| link.name.as_str());
         if let Some(twice) = names.find(|name| !seen.insert(*name)) {
-            return Err(ImportError::Structure(format!(
-                "two links have the name `{twice}`: rename one of them"
-            )));
+            return Err(ImportError::Structure {
+                reason: format!("two links have the name `{twice}`: rename one of them"),
+                part: Some(UrdfPart::of_link(twice, "").attribute("name")),
+            });
         }
         let mut tree = Self {
             links,
@@ -69,13 +70,18 @@ impl<'a> Tree<'a> {
         };
         for joint in &robot.joints {
             let (parent, child) = (joint.parent.link.as_str(), joint.child.link.as_str());
-            tree.link(parent)?;
-            tree.link(child)?;
+            let named_by =
+                |element| Some(UrdfPart::of_joint(&joint.name, element).attribute("link"));
+            tree.link(parent, named_by("parent"))?;
+            tree.link(child, named_by("child"))?;
             if let Some(other) = tree.parent.insert(child, joint) {
-                return Err(ImportError::Structure(format!(
-                    "link `{child}` has two parents, joints `{}` and `{}`: cut the loop, only open chains are supported",
-                    other.name, joint.name
-                )));
+                return Err(ImportError::Structure {
+                    reason: format!(
+                        "link `{child}` has two parents, joints `{}` and `{}`: cut the loop, only open chains are supported",
+                        other.name, joint.name
+                    ),
+                    part: named_by("child"),
+                });
             }
             tree.children.entry(parent).or_default().push(joint);
         }
@@ -86,9 +92,10 @@ impl<'a> Tree<'a> {
     fn check_no_loops(&self) -> Result<(), ImportError> {
         for link in self.links.keys() {
             if self.joints_above(link).count() > self.links.len() {
-                return Err(ImportError::Structure(format!(
-                    "link `{link}` is part of a loop of joints: cut the loop"
-                )));
+                return Err(ImportError::Structure {
+                    reason: format!("link `{link}` is part of a loop of joints: cut the loop"),
+                    part: Some(UrdfPart::of_link(link, "").attribute("name")),
+                });
             }
         }
         Ok(())
@@ -105,13 +112,15 @@ impl<'a> Tree<'a> {
         up.take(self.links.len() + 1)
     }
 
-    fn link(&self, name: &str) -> Result<&'a str, ImportError> {
+    /// The link of a name that `part` of the text gives, or an argument.
+    fn link(&self, name: &str, part: Option<UrdfPart>) -> Result<&'a str, ImportError> {
         self.links
             .get_key_value(name)
             .map(|(_, link)| link.name.as_str())
             .ok_or_else(|| ImportError::UnknownLink {
                 name: name.to_owned(),
                 help: suggest::help(name, self.links.keys().copied()),
+                part,
             })
     }
 
@@ -139,12 +148,12 @@ impl<'a> Tree<'a> {
         tip: Option<&str>,
     ) -> Result<Chain<'a>, ImportError> {
         let base = match base {
-            Some(base) => self.link(base)?,
+            Some(base) => self.link(base, None)?,
             None => self.root()?,
         };
         let is_open = tip.is_none();
         let tip = match tip {
-            Some(tip) => self.link(tip)?,
+            Some(tip) => self.link(tip, None)?,
             None => self.only_tip(base)?,
         };
         let mut path = Vec::new();
@@ -157,7 +166,7 @@ impl<'a> Tree<'a> {
             at = joint.parent.link.as_str();
         }
         if at != base {
-            return Err(ImportError::Structure(format!(
+            return Err(ImportError::structure(format!(
                 "link `{tip}` does not hang on link `{base}`: choose another --base or --tip"
             )));
         }
@@ -172,7 +181,7 @@ impl<'a> Tree<'a> {
             tip: behind,
         };
         if chain.joints.is_empty() {
-            return Err(ImportError::Structure(format!(
+            return Err(ImportError::structure(format!(
                 "no joint moves on the way from link `{base}` to link `{tip}`"
             )));
         }
@@ -188,8 +197,8 @@ impl<'a> Tree<'a> {
             .collect();
         match roots.as_slice() {
             [root] => Ok(root),
-            [] => Err(ImportError::Structure("the URDF has no links".to_owned())),
-            several => Err(ImportError::Structure(format!(
+            [] => Err(ImportError::structure("the URDF has no links".to_owned())),
+            several => Err(ImportError::structure(format!(
                 "the links form several trees: choose one with --base, {}",
                 suggest::list(several.iter().copied())
             ))),
@@ -286,10 +295,7 @@ fn fold<'a>(path: &[&'a Joint]) -> Result<(Vec<ChainJoint<'a>>, [f64; 3]), Impor
     let mut joints = Vec::new();
     let mut before: Option<Transform> = None;
     for joint in path {
-        let here = origin(
-            &joint.origin,
-            &format!("the origin of joint `{}`", joint.name),
-        )?;
+        let here = origin_of(joint)?;
         let folded = before.map_or(here, |before| before.then(&here));
         if joint.joint_type == JointType::Fixed {
             before = Some(folded);
@@ -310,79 +316,58 @@ fn fold<'a>(path: &[&'a Joint]) -> Result<(Vec<ChainJoint<'a>>, [f64; 3]), Impor
     Ok((joints, tip))
 }
 
+/// What is said of an axis of zeros.
+pub(super) fn without_direction(joint: &str) -> ImportError {
+    ImportError::Joint {
+        joint: joint.to_owned(),
+        reason: "has an axis without direction: write its `<axis xyz=..>`".to_owned(),
+        part: UrdfPart::of_joint(joint, "axis").attribute("xyz"),
+    }
+}
+
 fn check_kind(joint: &Joint) -> Result<(), ImportError> {
-    let refuse = |reason: String| {
+    let refuse = |part: UrdfPart, reason: String| {
         Err(ImportError::Joint {
             joint: joint.name.clone(),
             reason,
+            part,
         })
     };
+    let kind = UrdfPart::of_joint(&joint.name, "").attribute("type");
     match joint.joint_type {
         JointType::Revolute | JointType::Continuous | JointType::Prismatic | JointType::Fixed => {}
         JointType::Floating => {
             return refuse(
+                kind,
                 "is floating: an arm stands on a base, choose --base beyond this joint".to_owned(),
             );
         }
         JointType::Planar => {
-            return refuse("is planar: write it as two prismatic joints".to_owned());
+            return refuse(
+                kind,
+                "is planar: write it as two prismatic joints".to_owned(),
+            );
         }
         JointType::Spherical => {
-            return refuse("is spherical: write it as three revolute joints".to_owned());
+            return refuse(
+                kind,
+                "is spherical: write it as three revolute joints".to_owned(),
+            );
         }
     }
     if !joint.axis.xyz.iter().all(|x| x.is_finite()) || joint.axis.xyz.iter().all(|x| *x == 0.0) {
-        return refuse("has an axis without direction: write its `<axis xyz=..>`".to_owned());
+        return Err(without_direction(&joint.name));
     }
     let limit = &joint.limit;
     if joint.joint_type != JointType::Continuous && limit.lower > limit.upper {
-        return refuse(format!(
-            "has its lower limit {} above its upper limit {}: swap them",
-            limit.lower, limit.upper
-        ));
+        let part = UrdfPart::of_joint(&joint.name, "limit").attribute("lower");
+        return refuse(
+            part,
+            format!(
+                "has its lower limit {} above its upper limit {}: swap them",
+                limit.lower, limit.upper
+            ),
+        );
     }
     Ok(())
-}
-
-/// The angle that is meant where it is written with few decimals: a quarter turn for 1.5708.
-pub(super) fn meant(angle: f64) -> f64 {
-    rounded_quarter_turn(angle).unwrap_or(angle)
-}
-
-/// What is read otherwise than it is written: angles that round a multiple of a quarter turn.
-pub(super) fn notes(robot: &Robot) -> Vec<String> {
-    let joints = robot.joints.iter().map(|joint| &joint.origin);
-    let links = robot.links.iter().map(|link| &link.inertial.origin);
-    let angles = joints.chain(links).flat_map(|pose| pose.rpy.0);
-    let short: BTreeSet<String> = angles
-        // Closer ones are quarter turns in every spec.
-        .filter(|angle| quarter_turns(*angle).is_none() && rounded_quarter_turn(*angle).is_some())
-        .map(|angle| angle.to_string())
-        .collect();
-    if short.is_empty() {
-        return Vec::new();
-    }
-    let short: Vec<String> = short.into_iter().collect();
-    vec![format!(
-        "Angles of the URDF that round a multiple of a quarter turn are read as one: {}",
-        short.join(", ")
-    )]
-}
-
-/// A URDF pose, with the angles' quarter turns exact, also where they are written short.
-pub(super) fn origin(pose: &urdf_rs::Pose, what: &str) -> Result<Transform, ImportError> {
-    if pose
-        .xyz
-        .iter()
-        .chain(pose.rpy.iter())
-        .all(|x| x.is_finite())
-    {
-        return Ok(Transform {
-            rotation: rotation_rpy(pose.rpy.0.map(meant)),
-            translation: pose.xyz.0,
-        });
-    }
-    Err(ImportError::NotFinite {
-        what: what.to_owned(),
-    })
 }

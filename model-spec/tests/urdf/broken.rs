@@ -49,7 +49,7 @@ fn what_does_not_parse_is_told_with_its_line() {
         (
             r#"xyz="0 0 1""#,
             r#"xyz="0 a 0""#,
-            r#"line 13: `xyz="0 a 0"` in `<axis>` of joint `joint-1` is not 3 numbers: write them with blanks between"#,
+            r#"line 13: `xyz="0 a 0"` in `<axis>` of joint `joint-1` is not 3 numbers: write them with blanks between, in SI units, without units"#,
         ),
         (
             r#"value="2""#,
@@ -103,6 +103,109 @@ fn what_does_not_parse_is_told_with_its_line() {
             format!("the URDF does not parse: {said}")
         );
     }
+}
+
+/// The library that reads URDFs leaves such words out, and takes the numbers that are left.
+#[test]
+fn words_among_numbers_are_refused_with_their_letters() {
+    for (from, to, said, letters) in [
+        (
+            r#"xyz="0 0 0.1""#,
+            r#"xyz="1m 0 0 0.1""#,
+            r#"line 5: `xyz="1m 0 0 0.1"` in `<origin>` of link `fore` is not 3 numbers: write them with blanks between, in SI units, without units"#,
+            15..31,
+        ),
+        (
+            r#"xyz="0 0 1""#,
+            r#"xyz="0 0 1 0""#,
+            r#"line 13: `xyz="0 0 1 0"` in `<axis>` of joint `joint-1` is not 3 numbers: write them with blanks between, in SI units, without units"#,
+            11..24,
+        ),
+        (
+            r#"value="2""#,
+            r#"value="2kg""#,
+            r#"line 6: `value="2kg"` in `<mass>` of link `fore` is no number: write it in SI units, without a unit"#,
+            13..24,
+        ),
+        (
+            r#"lower="-1""#,
+            r#"lower="-60 deg""#,
+            r#"line 14: `lower="-60 deg"` in `<limit>` of joint `joint-1` is no number: write it in SI units, without a unit"#,
+            12..27,
+        ),
+    ] {
+        let broken = SOUND.replacen(from, to, 1);
+        let error = import(&broken, &ImportOptions::default()).expect_err(to);
+        assert_eq!(
+            error.to_string(),
+            format!("the URDF does not parse: {said}")
+        );
+        let place = error.place(&broken).expect("a place");
+        assert_eq!(place.letters, Some(letters), "{to}");
+    }
+    // What is drawn is no part of the arm.
+    let drawn = "<visual><origin xyz=\"0 0 0 1m\"/><geometry><sphere radius=\"1\"/></geometry></visual>\n  </link>\n  <joint";
+    let drawn = SOUND.replacen("</link>\n  <joint", drawn, 1);
+    assert!(import(&drawn, &ImportOptions::default()).is_ok());
+}
+
+/// What parses and is no arm has its place, too.
+#[test]
+fn mistakes_of_the_tree_have_their_letters() {
+    for (from, to, said, place) in [
+        (
+            r#"<child link="fore"/>"#,
+            r#"<child link="for"/>"#,
+            "the URDF has no link `for`; write `fore`",
+            (12, 12..22),
+        ),
+        (
+            r#"xyz="0 0 1""#,
+            r#"xyz="0 0 0""#,
+            "joint `joint-1` has an axis without direction: write its `<axis xyz=..>`",
+            (13, 11..22),
+        ),
+        (
+            r#"lower="-1""#,
+            r#"lower="3""#,
+            "joint `joint-1` has its lower limit 3 above its upper limit 1: swap them",
+            (14, 12..21),
+        ),
+        (
+            r#"type="revolute""#,
+            r#"type="planar""#,
+            "joint `joint-1` is planar: write it as two prismatic joints",
+            (10, 25..38),
+        ),
+        (
+            r#"value="2""#,
+            r#"value="-2""#,
+            "link `fore` has a negative `mass`, -2: write zero or more",
+            (6, 13..23),
+        ),
+        (
+            r#"xyz="0 0 0.1""#,
+            r#"xyz="0 0 nan""#,
+            "the inertial of link `fore` is not finite: write a number",
+            (5, 7..14),
+        ),
+    ] {
+        let broken = SOUND.replacen(from, to, 1);
+        let error = import(&broken, &ImportOptions::default()).expect_err(to);
+        assert_eq!(error.to_string(), said);
+        let found = error.place(&broken).expect("a place");
+        assert_eq!(
+            (found.line, found.letters),
+            (place.0, Some(place.1)),
+            "{to}"
+        );
+    }
+    let of_argument = ImportOptions {
+        tip: Some("hand".to_owned()),
+        ..ImportOptions::default()
+    };
+    let error = import(SOUND, &of_argument).expect_err("no such link");
+    assert_eq!(error.place(SOUND), None);
 }
 
 #[test]

@@ -150,7 +150,9 @@ impl<'a> CsvRows<'a> {
     /// Adds a record to a table.
     fn add(&mut self, table: &mut Table, row: &mut Vec<f64>) -> Result<(), LogError> {
         let (source, line) = (&self.records.source, self.records.line);
-        let fields = self.layout.columns(source, line, &self.records.record)?;
+        let fields = self.layout.columns(source, line, &self.records.record);
+        // Bytes that are no text have separators and line ends among them, and are what is to be mended.
+        let fields = fields.map_err(|error| self.records.no_text().unwrap_or(error))?;
         row.clear();
         let mut lost = None;
         for (k, (field, name)) in fields.zip(&self.names).enumerate() {
@@ -277,6 +279,16 @@ impl<'a> Records<'a> {
         }
     }
 
+    /// What is said of the first field of the record that is no text.
+    fn no_text(&self) -> Option<LogError> {
+        self.record.iter().find_map(|field| {
+            let text = text_of(&self.source, self.line, field);
+            let byte = field.iter().find(is_control);
+            let control = byte.map(|byte| not_text(&self.source, self.line, field, *byte));
+            text.err().or(control)
+        })
+    }
+
     /// Moves on to the next record; `line` follows it. False at the end.
     fn next(&mut self) -> Result<bool, LogError> {
         self.count.set(0);
@@ -305,7 +317,6 @@ impl<'a> Records<'a> {
 
 /// Names of the columns as the header has them.
 fn names(source: &str, records: &Records) -> Result<Vec<String>, LogError> {
-    let is_control = |byte: &&u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
     let names = records.record.iter().map(|field| {
         if let Some(byte) = field.iter().find(is_control) {
             return Err(not_text(source, records.line, field, *byte));
@@ -314,6 +325,10 @@ fn names(source: &str, records: &Records) -> Result<Vec<String>, LogError> {
         Ok(name.trim_start_matches('\u{feff}').to_owned())
     });
     names.collect()
+}
+
+fn is_control(byte: &&u8) -> bool {
+    byte.is_ascii_control() && !byte.is_ascii_whitespace()
 }
 
 /// Refuses what is no header of several columns.

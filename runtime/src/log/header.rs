@@ -55,7 +55,7 @@ impl Header {
                 signals: &columns.signals,
             };
             let note = units.apply(source, names, &mut channels)?;
-            header.notes.push(note);
+            header.notes.extend(note);
         }
         Ok(header)
     }

@@ -39,10 +39,10 @@ pub enum Note {
     RowNumbers,
     /// Commas stand before decimals.
     DecimalCommas,
-    /// A line below the names says units.
+    /// A line below the names says units, or the schema of the file.
     Units {
-        /// The line.
-        line: u64,
+        /// The line; none of a schema.
+        line: Option<u64>,
         /// Columns that are read in them.
         said: Vec<String>,
         /// Columns of which settings say another unit, which holds.
@@ -133,7 +133,10 @@ impl fmt::Display for Note {
                 said,
                 against,
             } => {
-                write!(f, "line {line} says units: ")?;
+                match line {
+                    Some(line) => write!(f, "line {line} says units: ")?,
+                    None => write!(f, "the file's schema says units: ")?,
+                }
                 match (said.is_empty(), against.is_empty()) {
                     (true, true) => write!(f, "settings say the same"),
                     (false, true) => write!(f, "{} are read so", said.join(", ")),

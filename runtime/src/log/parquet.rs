@@ -1,21 +1,25 @@
 //! Parquet files to columns of finite numbers, some thousand rows at a time: of a group's columns one page each is unpacked, however
 //! many rows the group has (many writers make groups of a million).
 //!
-//! Columns of whole and real numbers are read; time stamps are whole numbers in the file's unit. Lists, texts and decimals hold no numbers here.
+//! Columns of whole and real numbers are read; time stamps are whole numbers, whose unit the schema has. Lists, texts and decimals hold no numbers here.
+
+mod stamps;
+mod typed;
 
 use std::panic::{self, AssertUnwindSafe};
 
 use bytes::Bytes;
 use parquet::basic::{Compression, ConvertedType};
 use parquet::column::page::{Page, PageMetadata, PageReader};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
-use parquet::data_type::DataType;
+use parquet::column::reader::{ColumnReader, get_column_reader};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::LogError;
 use super::limits;
 use super::rows::{Input, Rows, Table, damaged};
+use super::units::Line;
+use typed::numbers;
 
 /// Rows that are read at a time at most.
 const BATCH: usize = 16_384;
@@ -26,6 +30,8 @@ pub(super) struct ParquetRows {
     reader: Box<dyn FileReader>,
     /// Names of the columns; those of nested ones have points in them.
     names: Vec<String>,
+    /// Units of columns that the schema has as times.
+    units: Option<Line>,
     next_group: usize,
     /// The group that is being read.
     group: Group,
@@ -107,6 +113,7 @@ impl ParquetRows {
             names: columns
                 .map(|column| column.path().string().trim().to_owned())
                 .collect(),
+            units: stamps::units(schema),
             reader: Box::new(reader),
             next_group: 0,
             group: Group::default(),
@@ -202,6 +209,10 @@ impl ParquetRows {
 impl Rows for ParquetRows {
     fn names(&self) -> &[String] {
         &self.names
+    }
+
+    fn units(&self) -> Option<&Line> {
+        self.units.as_ref()
     }
 
     fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
@@ -305,7 +316,7 @@ fn column(
     if about.max_rep_level() > 0 {
         return Ok(None);
     }
-    // Time stamps are whole numbers in whatever unit the file has; decimals and dates are no numbers.
+    // Time stamps are whole numbers; decimals and dates are none.
     let is_unsigned = match about.converted_type() {
         ConvertedType::UINT_8
         | ConvertedType::UINT_16
@@ -341,59 +352,6 @@ fn column(
         ColumnReader::DoubleColumnReader(reader) => numbers(reader, present, |value| value),
         _ => return Ok(None),
     }))
-}
-
-/// A column whose values are made numbers; levels of definition below `present` are nulls.
-struct Typed<T: DataType, N> {
-    reader: ColumnReaderImpl<T>,
-    present: i16,
-    number: N,
-}
-
-fn numbers<T: DataType, N: Fn(T::T) -> f64 + 'static>(
-    reader: ColumnReaderImpl<T>,
-    present: i16,
-    number: N,
-) -> Box<dyn Numbers>
-where
-    T::T: Copy,
-{
-    Box::new(Typed {
-        reader,
-        present,
-        number,
-    })
-}
-
-impl<T: DataType, N: Fn(T::T) -> f64> Numbers for Typed<T, N>
-where
-    T::T: Copy,
-{
-    fn next(&mut self, count: usize) -> Result<Vec<f64>, ParquetError> {
-        let (mut levels, mut values) = (Vec::new(), Vec::new());
-        let mut read = 0;
-        while read < count {
-            let (more, ..) =
-                self.reader
-                    .read_records(count - read, Some(&mut levels), None, &mut values)?;
-            if more == 0 {
-                break;
-            }
-            read += more;
-        }
-        let mut numbers = values.into_iter().map(&self.number);
-        if self.present == 0 {
-            return Ok(numbers.collect());
-        }
-        let of_level = |level: i16| {
-            let is_there = level == self.present;
-            is_there
-                .then(|| numbers.next())
-                .flatten()
-                .unwrap_or(f64::NAN)
-        };
-        Ok(levels.into_iter().map(of_level).collect())
-    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A line of units below the names of columns.
+//! A line of units below the names of columns, or those of a schema.
 
 use std::f64::consts::{PI, TAU};
 
@@ -56,7 +56,8 @@ const CURRENTS: [(&str, f64, Kind); 1] = [("A", 1.0, Kind::Either)];
 /// A line in which every field is a word.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line {
-    number: u64,
+    /// None of a schema.
+    number: Option<u64>,
     /// One a column, empty where there is none.
     words: Vec<String>,
 }
@@ -84,10 +85,23 @@ impl Line {
             .collect();
         let mut said = words.iter().filter(|word| !word.is_empty());
         let is_sound = said.clone().count() > 1 && said.all(|word| !is_number(word));
-        is_sound.then_some(Self { number, words })
+        is_sound.then_some(Self {
+            number: Some(number),
+            words,
+        })
     }
 
-    /// Gives columns their units where settings give them none.
+    /// What a schema says of its columns, where it says something of any.
+    pub fn of_schema(words: Vec<&'static str>) -> Option<Self> {
+        let is_said = words.iter().any(|word| !word.is_empty());
+        let words = words.into_iter().map(str::to_owned).collect();
+        is_said.then_some(Self {
+            number: None,
+            words,
+        })
+    }
+
+    /// Gives columns their units where settings give them none, and tells so.
     ///
     /// # Errors
     /// [`TextError::Unit`]
@@ -96,7 +110,7 @@ impl Line {
         source: &str,
         names: &[String],
         channels: &mut Channels,
-    ) -> Result<Note, LogError> {
+    ) -> Result<Option<Note>, LogError> {
         let mut reading = Reading {
             source,
             names,
@@ -118,11 +132,14 @@ impl Line {
                 DriveSignal::Number => None,
             };
         }
-        Ok(Note::Units {
+        // A schema that says what settings say, too, was looked at by nobody.
+        let is_silent =
+            self.number.is_none() && reading.said.is_empty() && reading.against.is_empty();
+        Ok((!is_silent).then_some(Note::Units {
             line: self.number,
             said: reading.said,
             against: reading.against,
-        })
+        }))
     }
 }
 
@@ -169,7 +186,8 @@ impl Reading<'_> {
         let Some((word, unit, kind)) = known().find(|(word, ..)| *word == plain) else {
             return Err(TextError::Unit {
                 source_name: self.source.to_owned(),
-                line: self.line.number,
+                // A schema has known units of times alone.
+                line: self.line.number.unwrap_or(1),
                 column: self.names[place.column].clone(),
                 text: words::field(written),
                 known: known().map(|(word, ..)| (*word).to_owned()).collect(),

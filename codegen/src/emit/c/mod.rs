@@ -25,6 +25,7 @@ pub use reserved::Reserved;
 
 /// The two files of a robot.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Code {
     /// The files are called `NAME.h` and `NAME.c`, functions `NAME_gravity` and so on.
     pub name: Prefix,

@@ -63,6 +63,40 @@ fn parquet_files_are_read_as_csv_is() {
     );
 }
 
+/// A schema that has the unit of a time stamp is heeded where settings say none, and what settings say holds.
+#[test]
+fn time_stamps_have_the_unit_of_the_schema() {
+    let bytes = written_parquet(None);
+    let columns = |unit: Option<f64>| Columns {
+        time: Column {
+            name: "stamp".to_owned(),
+            unit,
+        },
+        ..Columns::standard(1)
+    };
+    let read = |unit| Log::from_reader_as("monday", bytes.as_slice(), &columns(unit));
+    let log = read(None).expect("a sound log");
+    assert_eq!(log.rate_hz().round(), 1000.0);
+    let told = |log: &Log| {
+        let told = log.report.iter().map(ToString::to_string);
+        told.filter(|told| told.contains("schema"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told(&log),
+        ["the file's schema says units: `stamp` in us are read so"]
+    );
+    let same = read(Some(1e-6)).expect("a sound log");
+    assert_eq!(told(&same), [""; 0]);
+    let other = read(Some(1e-5)).expect("a slower log");
+    assert_eq!(other.rate_hz().round(), 100.0);
+    let told = told(&other);
+    assert!(
+        told[0].contains("`stamp` in us, of which settings say another unit"),
+        "{told:?}"
+    );
+}
+
 /// Damaged Parquet files are refused, or read where the damage is in a number.
 #[test]
 fn damaged_parquet_files_are_refused() {
