@@ -170,7 +170,9 @@ fn summary(cases: &[Case], answers: &[Answer]) -> String {
         .filter_map(|one| one.over_achievable)
         .collect();
     over.sort_by(f64::total_cmp);
-    let median = over.get(over.len() / 2);
+    let middle = [over.len().saturating_sub(1) / 2, over.len() / 2];
+    let median = over.get(middle[0]).zip(over.get(middle[1]));
+    let median = median.map(|(low, high)| 0.5 * (low + high));
     let median = median.map_or_else(String::new, |median| {
         format!("; error after over the achievable one: {median:.2} in the median")
     });

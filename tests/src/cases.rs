@@ -56,6 +56,7 @@ pub struct KeyEffect {
 struct Accepted {
     outcome: Option<String>,
     kind: Option<String>,
+    joint: Option<usize>,
     #[serde(rename = "for")]
     stands_for: Option<String>,
 }
@@ -86,37 +87,64 @@ impl KeyEffect {
 }
 
 impl Key {
-    /// Whether a trace says what the key says: the outcome, and where effects are named each of them and nothing else. `said` are kinds
-    /// with joints from 1. The rules are those of the scorer beside the cases, without its neighbors.
+    /// Whether a trace says what the key says or accepts: the outcome, and where effects are named each of them and nothing else. `said` are
+    /// kinds with joints from 1.
     #[must_use]
     pub fn is_met(&self, outcome: &str, said: &[(String, Vec<usize>)]) -> bool {
+        let is_quiet = said.is_empty() || outcome == "explained";
         let accepts = |one: &Accepted| one.outcome.as_deref() == Some(outcome);
-        if self.expected_outcome != "explained" || outcome != "explained" {
-            let is_quiet = said.is_empty() || outcome == "explained";
-            return is_quiet
-                && (outcome == self.expected_outcome || self.accept.iter().any(accepts));
+        if is_quiet && self.accept.iter().any(accepts) {
+            return true;
         }
-        let is_named = |effect: &KeyEffect| said.iter().any(|said| self.stands_for(effect, said));
-        said.len() == self.effects.len() && self.effects.iter().all(is_named)
+        if self.expected_outcome != "explained" {
+            let stands = |said| self.accept.iter().any(|one| self.is_accepted(one, said));
+            let is_accepted = outcome == "explained" && said.len() == 1 && stands(&said[0]);
+            return is_accepted || (is_quiet && outcome == self.expected_outcome);
+        }
+        let mut left: Vec<_> = said.iter().collect();
+        for effect in &self.effects {
+            let Some(place) = left.iter().position(|said| self.stands_for(effect, said)) else {
+                return false;
+            };
+            left.remove(place);
+        }
+        outcome == "explained" && left.is_empty()
     }
 
-    fn stands_for(&self, effect: &KeyEffect, (kind, joints): &(String, Vec<usize>)) -> bool {
-        let kinds = [effect.kind.as_str(), kind.as_str()];
-        let is_same = kinds[0] == kinds[1]
-            || SAME
-                .iter()
-                .any(|same| kinds.iter().all(|kind| same.contains(kind)));
-        let is_accepted = || {
-            self.accept.iter().any(|one| {
-                one.kind.as_deref() == Some(kind)
-                    && one.stands_for.as_ref().is_none_or(|of| *of == effect.kind)
-            })
-        };
+    fn stands_for(&self, effect: &KeyEffect, said: &(String, Vec<usize>)) -> bool {
         let own = effect.joints();
         let is_there = own.is_empty()
             || WITHOUT_JOINT.contains(&effect.kind.as_str())
+            || said.1.iter().any(|joint| own.contains(joint));
+        let is_same = self.is_same((&effect.kind, &own), (&said.0, &said.1));
+        let of_it = |one: &&Accepted| one.stands_for.as_ref().is_none_or(|of| *of == effect.kind);
+        let mut accepted = self.accept.iter().filter(of_it);
+        (is_there && is_same) || accepted.any(|one| self.is_accepted(one, said))
+    }
+
+    /// Whether an answer is this one, which the key accepts.
+    fn is_accepted(&self, one: &Accepted, (kind, joints): &(String, Vec<usize>)) -> bool {
+        let own: Vec<usize> = one.joint.into_iter().collect();
+        let is_there = own.is_empty()
+            || WITHOUT_JOINT.contains(&kind.as_str())
             || joints.iter().any(|joint| own.contains(joint));
-        is_there && (is_same || is_accepted())
+        let is_same = |wanted: &String| self.is_same((wanted, &own), (kind, joints));
+        is_there && one.kind.as_ref().is_some_and(is_same)
+    }
+
+    /// Whether two laws are the same in these logs: a payload is an error of the last link.
+    fn is_same(&self, one: (&str, &[usize]), other: (&str, &[usize])) -> bool {
+        let last = [self.validate.achievable_rms_validate.len()];
+        let tagged = |(kind, joints): (&str, &[usize])| {
+            if kind == "link-inertial-error" && joints == last {
+                "payload".to_owned()
+            } else {
+                kind.to_owned()
+            }
+        };
+        let (one, other) = (tagged(one), tagged(other));
+        let both = |same: &[&str; 2]| same.contains(&&*one) && same.contains(&&*other);
+        one == other || SAME.iter().any(both)
     }
 
     /// Errors on the log to judge on over the least that they can be, of the worst joint that counts.
@@ -233,7 +261,7 @@ mod tests {
         assert!(key.is_met("explained", &[said("stribeck", &[2])]));
         assert!(!key.is_met("explained", &[said("stribeck", &[1])]));
         assert!(!key.is_met("explained", &[said("backlash", &[2])]));
-        let both = [said("stribeck", &[2]), said("backlash", &[1])];
+        let both = [said("stribeck", &[2]), said("stribeck", &[2])];
         assert!(!key.is_met("explained", &both));
         assert!(!key.is_met("unexplained", &[]));
         assert!((key.over_achievable(&[9.0, 0.6]) - 1.2).abs() < 1e-12);
@@ -247,11 +275,22 @@ mod tests {
         let silent = key("nothing-missing", "[]", r#"[{"outcome": "unexplained"}]"#);
         assert!(silent.is_met("unexplained", &[]) && silent.is_met("nothing-missing", &[]));
         assert!(!silent.is_met("explained", &[said("stribeck", &[2])]));
+        let quiet = key(
+            "nothing-missing",
+            "[]",
+            r#"[{"kind": "stribeck", "joint": 2}]"#,
+        );
+        assert!(quiet.is_met("explained", &[said("stribeck", &[2])]));
+        assert!(!quiet.is_met("explained", &[said("stribeck", &[1])]));
+        assert!(!quiet.is_met("unexplained", &[]));
     }
 
     #[test]
     fn the_arm_as_a_whole_has_no_joint() {
         let key = key("explained", r#"[{"kind": "payload", "joint": null}]"#, "[]");
-        assert!(key.is_met("explained", &[said("payload", &[7])]));
+        assert!(key.is_met("explained", &[said("payload", &[])]));
+        // Of two links.
+        assert!(key.is_met("explained", &[said("link-inertial-error", &[2])]));
+        assert!(!key.is_met("explained", &[said("link-inertial-error", &[1])]));
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
 /// How often it is worse, where the folds are the same.
 fn in_folds(worse: Option<(usize, usize)>) -> String {
     worse.map_or_else(String::new, |(worse, of)| {
-        format!(", larger in {worse} of {of} folds")
+        format!("; in the band of the fit, all joints together, larger in {worse} of {of} folds")
     })
 }
 
@@ -64,7 +64,7 @@ impl Without {
 }
 
 /// A line for every alternative that some motion may tell from what is named: those that the logs tell apart by something first, since no
-/// motion may tell the others. Then one for every other alternative, with the reason.
+/// motion may tell the others. Then one, with the reason, for every alternative of those looked at that has no motion.
 fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     let alternatives = &closed.verdict.alternatives;
     let is_same = |rival: &&Alternative| rival.worse_percent.abs() < SAME_PERCENT;

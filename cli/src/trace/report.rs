@@ -35,7 +35,7 @@ pub(crate) struct Report<'a> {
     times_noise_floor: Vec<Option<f64>>,
     /// Speeds below which dry friction does not act in full, per joint, rad/s or m/s.
     turn_speeds: &'a [f64],
-    /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
+    /// Share of the raw error's power that stands out of noise as structure, per joint, on the identification logs.
     structure_before: Vec<f64>,
     structure_after: Vec<f64>,
     /// Of what the structure after is a function, for every joint where it matters.

@@ -285,7 +285,9 @@ fn a_displacement_that_is_no_number_is_told() {
     let mut moving = released(arm, &[0.0; 3], &[-0.1, 0.0, -0.1]);
     let error = moving.advance(0.1).expect_err("no root");
     assert!(
-        error.to_string().contains("torque of joint 1 is no number"),
+        error
+            .to_string()
+            .contains("torque of joint 1 is not a number"),
         "{error}"
     );
 }

@@ -248,7 +248,9 @@ fn a_load_that_nothing_carries_is_told() {
         .advance(1.0)
         .expect_err("no spring rises with its load");
     assert!(
-        error.to_string().contains("torque of joint 1 is no number"),
+        error
+            .to_string()
+            .contains("torque of joint 1 is not a number"),
         "{error}"
     );
 }

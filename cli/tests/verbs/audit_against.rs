@@ -81,8 +81,8 @@ fn a_value_that_is_another_is_told_from_either_side() {
     let (code, check, said) = asked(&standard(), &other);
     assert_eq!(code, Some(1), "{said}");
     let told = [
-        "`one.viscous_friction.fvr` is 1.8, and 1.9 there: 5.3 % of its parts",
-        "`one.stribeck.vs` is 0.1, and 0.12 there: 16.7 % of it",
+        "`one.viscous_friction.fvr` is 1.8, in the other source 1.9: 5.3 % of its parts",
+        "`one.stribeck.vs` is 0.1, in the other source 0.12: 16.7 % of it",
     ];
     assert_eq!(findings(&check), told);
     let numbers = check["quantities"].as_array().expect("a list");
@@ -99,8 +99,8 @@ fn a_value_that_is_another_is_told_from_either_side() {
 fn deviations_of_a_fit_are_room() {
     for (viscous, std, far) in [
         (1.9, 0.05, None),
-        (2.1, 0.05, Some("6.0 deviations apart")),
-        (1.9, 0.01, Some("10.0 deviations apart")),
+        (2.1, 0.05, Some("6.0 standard deviations apart")),
+        (1.9, 0.01, Some("10.0 standard deviations apart")),
     ] {
         let (code, check, said) = asked(&fit(viscous, std), &standard());
         let found = findings(&check);

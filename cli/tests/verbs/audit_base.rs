@@ -62,12 +62,12 @@ fn sums_that_torques_tell_are_base_parameters_and_others_are_told_why() {
         (
             "zz1",
             value!({"one.izz": 1}),
-            "goes 0.25 `two.m` (it has 0)",
+            "its other parts need 0.25 `two.m` (it has 0)",
         ),
         (
             "y1",
             value!({"one.my": 1, "one.mz": 1}),
-            "goes 0 `one.mz` (it has 1)",
+            "its other parts need 0 `one.mz` (it has 1)",
         ),
         (
             "y2",

@@ -71,7 +71,7 @@ fn a_gain_that_saturates_is_no_line() {
     let columns = ["--current", "i", "--torque", "tau", "--json", "bent.json"];
     let said = folder.succeed(&[&["calibrate", "static", "bent.csv"][..], &columns].concat());
     assert!(said.contains("NOT LINEAR"), "{said}");
-    assert!(said.contains("hysteresis  not told"), "{said}");
+    assert!(said.contains("hysteresis  unknown"), "{said}");
     let found = json(&folder.read("bent.json"));
     close(found["curvature"].as_f64().expect("told"), -0.002, 1e-9);
     // A gain that is not there is in no spec.
@@ -273,7 +273,7 @@ fn logs_that_do_not_tell_are_refused() {
         assert!(said("gap.csv", &motion).contains("gap.csv:51: a gap of 31.0 usual steps"));
         assert!(said("twice.csv", &motion).contains("twice.csv:12: time does not increase"));
     }
-    assert!(said("sine.csv", &["--velocity", "still"]).contains("the velocity is the same"));
+    assert!(said("sine.csv", &["--velocity", "still"]).contains("the velocity is constant"));
     let names = said("sine.csv", &["--velocity", "w", "--time", "t"]);
     assert!(names.contains("no column `t` for --time"), "{names}");
     let calibrate = ["calibrate", "back-emf", "sine.csv", "--current", "u"];

@@ -45,8 +45,9 @@ fn scaled(folder: &Folder, name: &str, factors: [f64; 2]) {
 fn notes(folder: &Folder, arguments: &[&str]) -> String {
     let run = folder.run(&[&["identify"], arguments].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let notes = run.stderr.lines().filter(|line| line.starts_with("note: "));
-    notes.collect::<Vec<_>>().join("\n")
+    let lines = run.stderr.lines();
+    let told = lines.filter(|line| line.starts_with("note: ") || line.starts_with("warning: "));
+    told.collect::<Vec<_>>().join("\n")
 }
 
 #[test]

@@ -298,7 +298,7 @@ fn each_folder_has_its_own_file() {
     let run = folder.run(&arguments);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     for name in ["monday", "tuesday"] {
-        let note = format!("note: {name}/robot-model.toml says");
+        let note = format!("note: {name}/robot-model.toml sets");
         assert!(run.stderr.contains(&note), "{}", run.stderr);
     }
     // No result takes the place of what was read.

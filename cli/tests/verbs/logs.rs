@@ -198,7 +198,7 @@ fn the_line_of_a_log_that_is_at_fault_is_shown() {
     let said = refused("time,q1,tua1\n0,1,2\n0.01,1,3\n");
     let [shown, help] = [
         "\n1 | time,q1,tua1\n  |         ^^^^\n",
-        "= help: a `robot-model.toml`",
+        "= help: name the columns in a `robot-model.toml`",
     ]
     .map(|part| said.find(part).unwrap_or_else(|| panic!("{said}")));
     assert!(shown < help, "{said}");

@@ -171,11 +171,11 @@ fn what_is_no_factor_of_the_arm_is_refused() {
     for (arguments, reason) in [
         (
             &["merge", "more.robot", "one.json"][..],
-            "other unknowns than the arm",
+            "different unknowns than the arm",
         ),
         (
             &["merge", "cart.robot", "one.json", "narrow.json"],
-            "other filters (5,30,90 Hz, where 10,30,90 Hz are wanted)",
+            "different filters (5,30,90 Hz, where 10,30,90 Hz are wanted)",
         ),
         (
             &["merge", "geared.robot", "one.json"],
@@ -285,13 +285,17 @@ fn a_log_that_is_in_two_factors_is_noted() {
     }
     let both = ["merge", "cart.robot", "one.json", "other.json"];
     let apart = folder.run(&[&both[..], &["--factor", "both.json"]].concat());
-    assert!(!apart.stderr.contains("counts twice"), "{}", apart.stderr);
+    assert!(
+        !apart.stderr.contains("they count twice"),
+        "{}",
+        apart.stderr
+    );
     for again in ["one.json", "both.json"] {
         let run = folder.run(&["merge", "cart.robot", "one.json", again]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         let told = format!("note: {again} has ");
         assert!(
-            run.stderr.contains(&told) && run.stderr.contains(" of a log that one.json has, too"),
+            run.stderr.contains(&told) && run.stderr.contains(" of a log that one.json also has"),
             "{}",
             run.stderr
         );

@@ -50,7 +50,7 @@ fn another_name_than_the_one_that_was_asked_for_is_told() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
         run.stderr
-            .starts_with("note: the robot is called `Robot2Link`, in place of `2Link`: "),
+            .starts_with("note: the robot is called `Robot2Link` instead of `2Link`: "),
         "{}",
         run.stderr
     );

@@ -114,10 +114,6 @@ fn slips_in_a_parameter_file_are_told() {
             format!("entry 2 of `parameters` has no text `name`: {forms}"),
         ),
         (
-            r#"{"parameters": [{"name": "cart.m"}]}"#,
-            format!("`cart.m` has no `value`: {forms}"),
-        ),
-        (
             r#"{"parameters": [{"name": "cart.m", "value": 3}, {"name": "cart.m", "value": 3}]}"#,
             "parameter `cart.m` appears more than once; keep the right value".to_owned(),
         ),
@@ -142,6 +138,10 @@ fn slips_in_a_parameter_file_are_told() {
         (
             "{\"parameters\": [\n{\"name\": \"cart.m\", \"value\": \"3\"}]}",
             "2:10: the `value` of `cart.m` is text, but must be a number\n".to_owned(),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m"}]}"#,
+            format!("1:26: `cart.m` has no `value`: {forms}\n"),
         ),
     ] {
         folder.write("parameters.json", text);

@@ -204,7 +204,8 @@ fn what_cannot_be_mended_is_told_first() {
         folder.write("log.csv", &csv(&rows));
         let run = folder.run(&["identify", "arm.robot", "log.csv"]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
-        let mut notes = run.stderr.lines().filter(|line| line.starts_with("note: "));
+        let is_told = |line: &&str| line.starts_with("note: ") || line.starts_with("warning: ");
+        let mut notes = run.stderr.lines().filter(is_told);
         let said = notes.find(|note| note.contains(told));
         let said = said.unwrap_or_else(|| panic!("{name}: {}", run.stderr));
         assert!(said.contains(way_out), "{name}: {said}");

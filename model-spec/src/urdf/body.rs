@@ -96,8 +96,8 @@ pub(super) fn impossible(links: &[String], carried: &[Carried]) -> Vec<String> {
     wrong
         .map(|(link, _)| {
             format!(
-                "link `{link}` has an inertia that no body has: about the center of mass each principal moment is positive and at \
-                 most the sum of the other two"
+                "link `{link}` has a physically impossible inertia: about the center of mass each principal moment must be positive and at most \
+                 the sum of the other two"
             )
         })
         .collect()

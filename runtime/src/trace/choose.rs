@@ -79,7 +79,7 @@ pub(super) fn choose<'a>(
 /// In how many folds the error of `one` is larger than that of `other`, and of how many; none where folds are not the same.
 fn worse_folds(one: &[f64], other: &[f64]) -> Option<(usize, usize)> {
     let larger = one.iter().zip(other).filter(|(one, other)| one > other);
-    (one.len() == other.len()).then(|| (larger.count(), one.len()))
+    (!one.is_empty() && one.len() == other.len()).then(|| (larger.count(), one.len()))
 }
 
 #[cfg(test)]
@@ -190,6 +190,7 @@ mod tests {
         assert_eq!(worse_folds(&[1.1, 0.9, 1.2], &[1.0; 3]), Some((2, 3)));
         assert_eq!(worse_folds(&[1.0; 3], &[1.0; 3]), Some((0, 3)));
         assert_eq!(worse_folds(&[1.0; 3], &[1.0; 10]), None);
+        assert_eq!(worse_folds(&[], &[]), None);
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub(super) struct Judged<'a> {
     pub(super) merit: f64,
     /// Held-out power on raw samples per joint.
     pub(super) raw_power: Vec<f64>,
-    /// Held-out power of each fold, of all joints, each over that of the model without the candidate.
+    /// Held-out power of each fold, of all joints, each over that of the model without the candidate; none on folds of its own.
     pub(super) fold_power: Vec<f64>,
     /// Why it may not be named.
     pub(super) refusals: Vec<Refusal>,

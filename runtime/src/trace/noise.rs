@@ -8,7 +8,9 @@
 use crate::columns::Change;
 use crate::signal::Prepared;
 
+use super::floor::STEPS_OVER_NOISE;
 use super::gate::{Baseline, Judged, MATERIAL_PERCENT};
+use super::raw::mean_square;
 use super::search::{Search, State};
 use super::trial::Trial;
 use super::verdict::{Evidence, Refusal};
@@ -20,9 +22,9 @@ const MORE_THAN_NOISE_PERCENT: f64 = 20.0;
 const MOST_LEFT: f64 = 0.5;
 
 impl Search<'_> {
-    /// Whether a change of the arm that reads the torque takes structure off, lowers the error of another joint than that whose torque it reads
-    /// by as much as matters, or its first order lowers an error so where it reads the torque of the model, on a joint where the change itself
-    /// does.
+    /// Whether a change of the arm that reads the torque explains more than noise of the positions, and either takes structure off, or lowers
+    /// the error of another joint than that whose torque it reads by as much as matters, or its first order lowers an error so where it reads
+    /// the torque of the model, on a joint where the change itself does.
     pub(super) fn is_more_than_noise(
         &self,
         state: &State,
@@ -30,6 +32,9 @@ impl Search<'_> {
         judged: &Judged,
         change: &dyn Change,
     ) -> bool {
+        if !self.is_more_than_encoders(state, judged) {
+            return false;
+        }
         let own = judged.trial.candidate.joints();
         if self.takes_structure(state, judged) || helps_another_joint(own, &judged.evidence) {
             return true;
@@ -47,6 +52,18 @@ impl Search<'_> {
         let mut pairs = pairs.zip(&judged.evidence.raw_percent);
         !(refused(Refusal::Chance) || refused(Refusal::HeldOut))
             && pairs.any(|(clean, raw)| clean.min(*raw) >= MATERIAL_PERCENT)
+    }
+
+    /// Whether it takes more off the squared error of some joint, where it matters, than noise of the positions may make of it. The torque of the
+    /// model has that noise as the logged one has its own, in accelerations, and what differentiates the torque twice more explains it.
+    fn is_more_than_encoders(&self, state: &State, judged: &Judged) -> bool {
+        let falls = judged.evidence.held_out_percent.iter();
+        let mut joints = falls.zip(&state.residuals).zip(&self.position_noise);
+        joints.any(|((percent, residual), noise)| {
+            let left = (1.0 - percent / 100.0).powi(2);
+            let taken = (1.0 - left) * mean_square(residual);
+            *percent >= MATERIAL_PERCENT && taken > STEPS_OVER_NOISE * noise.filtered
+        })
     }
 
     /// Whether it takes most of the structure off a joint, and more of its error than noise that explains itself does.

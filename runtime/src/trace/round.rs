@@ -147,7 +147,11 @@ impl Search<'_> {
         let trial = trial.clone().refined(&baseline.present, rows, finely);
         let projected = trial.project(&baseline.present)?;
         let mut judged = match self.own_folds(&trial, &state.stack.segments) {
-            Some(folds) => baseline.on(&folds).judge(trial, &projected),
+            Some(folds) => Judged {
+                // They are compared with those of no other law.
+                fold_power: Vec::new(),
+                ..baseline.on(&folds).judge(trial, &projected)
+            },
             None => baseline.judge(trial, &projected),
         };
         if is_of_phase(judged.trial.candidate) {

@@ -90,7 +90,8 @@ pub struct Alternative {
     pub instead_of: usize,
     /// Held-out error on raw samples relative to the finding's, percent; positive: worse.
     pub worse_percent: f64,
-    /// In how many folds its held-out error is larger than the finding's, and of how many; none where both were not judged on the same ones.
+    /// In how many folds its held-out error, in the band of the fit and of all joints together, is larger than the finding's, and of how many;
+    /// none where both were not judged on the same ones.
     pub worse_folds: Option<(usize, usize)>,
 }
 

@@ -114,7 +114,7 @@ fn what_is_not_switched_is_refused() {
     let stands = vec![0.5; log.time.len()];
     let error = Commanded::find(&log.time, &log.drop, &stands).unwrap_err();
     assert!(
-        error.to_string().starts_with("the velocity is the same"),
+        error.to_string().starts_with("the velocity is constant"),
         "{error}"
     );
     // The velocity is that of the voltage, at once: `k` and resistance are one.

@@ -115,7 +115,7 @@ fn what_does_not_vary_is_refused() {
     let error = MotorVoltage::fit(&times(), &stands, &velocity, &voltage).unwrap_err();
     assert!(error.to_string().starts_with("the current is constant"));
     let error = MotorVoltage::fit(&times(), &current, &stands, &voltage).unwrap_err();
-    assert!(error.to_string().starts_with("the velocity is the same"));
+    assert!(error.to_string().starts_with("the velocity is constant"));
     let twice: Vec<f64> = current.iter().map(|i| 2.0 * i + 1.0).collect();
     let error = MotorVoltage::fit(&times(), &current, &twice, &voltage).unwrap_err();
     assert_eq!(error, CalibrateError::NotApart);

@@ -120,7 +120,7 @@ fn merged_factors_are_those_of_all_logs() {
     let mut narrow = empty();
     narrow.bands.shared_hz = 5.0;
     let refused = one.merge(narrow).expect_err("other filters").to_string();
-    let told = "other filters (5,30,90 Hz, where 10,30,90 Hz are wanted)";
+    let told = "different filters (5,30,90 Hz, where 10,30,90 Hz are wanted)";
     assert!(refused.contains(told), "{refused}");
 }
 

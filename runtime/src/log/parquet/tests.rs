@@ -37,8 +37,8 @@ fn parquet_files_are_read_as_csv_is() {
     // An unsigned one, whose first bit is not a sign.
     assert_eq!(log.extra[0].values[3], 4_294_967_292.0);
     let told: Vec<String> = log.report.iter().map(ToString::to_string).collect();
-    assert!(told[0].ends_with("left out: `mode`"), "{told:?}");
-    assert!(told[1].ends_with("straight lines: `gaps`"), "{told:?}");
+    assert!(told[0].ends_with("are ignored: `mode`"), "{told:?}");
+    assert!(told[1].ends_with("are interpolated: `gaps`"), "{told:?}");
 
     let again = Log::read_as(&file, &columns).expect("a sound log");
     assert_eq!((again.time, again.q), (log.time, log.q));
@@ -92,7 +92,7 @@ fn time_stamps_have_the_unit_of_the_schema() {
     assert_eq!(other.rate_hz().round(), 100.0);
     let told = told(&other);
     assert!(
-        told[0].contains("`stamp` in us, of which settings say another unit"),
+        told[0].contains("`stamp` in us, but settings give another unit"),
         "{told:?}"
     );
 }

@@ -137,15 +137,15 @@ fn factors_of_another_form_or_corner_are_refused() {
     for (other, told) in [
         (
             with(BANDS, Some(7.0)),
-            "other rows (of the form filtered with a corner of 7 rad/s, where filtered with a corner of 5 rad/s is wanted)",
+            "different rows (of the form filtered with a corner of 7 rad/s, where filtered with a corner of 5 rad/s is wanted)",
         ),
         (
             plain(BANDS),
-            "other rows (of the form acceleration, where filtered with a corner of 5 rad/s is wanted)",
+            "different rows (of the form acceleration, where filtered with a corner of 5 rad/s is wanted)",
         ),
         // Filters that are chosen differ where forms do.
-        (plain(narrow), "other rows (of the form acceleration"),
-        (with(narrow, Some(CORNER)), "other filters (5,30,90 Hz"),
+        (plain(narrow), "different rows (of the form acceleration"),
+        (with(narrow, Some(CORNER)), "different filters (5,30,90 Hz"),
     ] {
         let refused = filtered().merge(other).expect_err("another factor");
         let refused = refused.to_string();
