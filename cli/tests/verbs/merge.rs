@@ -208,7 +208,7 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         ),
         (
             &["identify", "dahl.robot", "one.csv", "--factor", "x.json"],
-            "`dahl` remembers",
+            "`dahl` has a memory",
         ),
         (
             &["identify", "open.robot", "one.csv", "--factor", "x.json"],

@@ -92,6 +92,7 @@ impl Line {
     }
 
     /// What a schema says of its columns, where it says something of any.
+    #[cfg(feature = "parquet")]
     pub fn of_schema(words: Vec<&'static str>) -> Option<Self> {
         let is_said = words.iter().any(|word| !word.is_empty());
         let words = words.into_iter().map(str::to_owned).collect();
