@@ -61,8 +61,8 @@ impl Mark<'_> {
                 let place = places.nth(letters.start.saturating_sub(1));
                 let from = place.unwrap_or(line.len());
                 let count = letters.end.saturating_sub(letters.start);
-                let behind = line[from..].char_indices().map(|(at, _)| from + at);
-                from..behind.skip(count).next().unwrap_or(line.len())
+                let mut behind = line[from..].char_indices().map(|(at, _)| from + at);
+                from..behind.nth(count).unwrap_or(line.len())
             }
             Self::Column(column) => {
                 let mut letters = line.char_indices().skip(column.saturating_sub(1));

@@ -177,8 +177,9 @@ impl Chart<'_> {
             let edge = ROOM * (axis.end - axis.start);
             axis.start + edge < 0.0 && 0.0 < axis.end - edge
         };
-        let across = (!self.is_logarithmic && has_zero(y)).then(|| [(x.start, 0.0), (x.end, 0.0)]);
-        let up = (!self.is_logarithmic && has_zero(x)).then(|| [(0.0, y.start), (0.0, y.end)]);
+        let across =
+            (!self.is_logarithmic && has_zero(y)).then_some([(x.start, 0.0), (x.end, 0.0)]);
+        let up = (!self.is_logarithmic && has_zero(x)).then_some([(0.0, y.start), (0.0, y.end)]);
         across.into_iter().chain(up).collect()
     }
 }

@@ -283,8 +283,8 @@ impl<'a> Records<'a> {
     fn no_text(&self) -> Option<LogError> {
         self.record.iter().find_map(|field| {
             let text = text_of(&self.source, self.line, field);
-            let byte = field.iter().find(is_control);
-            let control = byte.map(|byte| not_text(&self.source, self.line, field, *byte));
+            let byte = field.iter().copied().find(|byte| is_control(*byte));
+            let control = byte.map(|byte| not_text(&self.source, self.line, field, byte));
             text.err().or(control)
         })
     }
@@ -318,8 +318,8 @@ impl<'a> Records<'a> {
 /// Names of the columns as the header has them.
 fn names(source: &str, records: &Records) -> Result<Vec<String>, LogError> {
     let names = records.record.iter().map(|field| {
-        if let Some(byte) = field.iter().find(is_control) {
-            return Err(not_text(source, records.line, field, *byte));
+        if let Some(byte) = field.iter().copied().find(|byte| is_control(*byte)) {
+            return Err(not_text(source, records.line, field, byte));
         }
         let name = text_of(source, records.line, field)?;
         Ok(name.trim_start_matches('\u{feff}').to_owned())
@@ -327,7 +327,7 @@ fn names(source: &str, records: &Records) -> Result<Vec<String>, LogError> {
     names.collect()
 }
 
-fn is_control(byte: &&u8) -> bool {
+const fn is_control(byte: u8) -> bool {
     byte.is_ascii_control() && !byte.is_ascii_whitespace()
 }
 
