@@ -70,7 +70,7 @@ struct Achievable {
 const SAME: [[&str; 2]; 1] = [["asymmetric-coulomb", "torque-offset"]];
 
 /// Kinds of the arm as a whole, wherever they are said to be.
-const WITHOUT_JOINT: [&str; 5] = [
+pub const WITHOUT_JOINT: [&str; 5] = [
     "base-tilt",
     "payload",
     "time-delay",

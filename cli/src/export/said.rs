@@ -99,7 +99,7 @@ pub(super) fn moved(standard: &Standard) -> Option<String> {
     };
     (!named.is_empty()).then(|| {
         format!(
-            "no physically possible arm has these values; the nearest is written, with {}{more}; `identify --method physical` finds the \
+            "no physically possible arm has these values; a near one is written, with {}{more}; `identify --method physical` finds the \
              possible arm that fits the logs best",
             named.join(", ")
         )

@@ -115,8 +115,8 @@ impl TraceArguments {
         });
         Next {
             what: format!(
-                "Below stands where it is. A law of your own for that is some lines of the spec; another motion tells more of it: this designs \
-                 one{first}. Drive it, log it, and trace both logs together:"
+                "The section on structure says what it depends on. You can declare a law of your own for it in the spec, and another motion \
+                 shows more of it: this designs one{first}. Drive it, log it, and trace both logs together:"
             ),
             commands: vec![format!(
                 "robot-model excite {} --out {MOTION} --figure next.svg",

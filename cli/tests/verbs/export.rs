@@ -267,7 +267,7 @@ fn estimates_that_no_arm_has_are_told() {
         &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
     );
     assert!(
-        said.contains("warning: fit.json: no physically possible arm has these values; the nearest is written, with \
+        said.contains("warning: fit.json: no physically possible arm has these values; a near one is written, with \
                        `lower.coulomb_friction.fc`"),
         "{said}"
     );
