@@ -47,6 +47,7 @@ mod forward;
 mod gate;
 mod gram;
 mod grid;
+mod jackknife;
 mod line;
 mod multiplicity;
 mod noise;

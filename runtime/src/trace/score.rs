@@ -9,6 +9,7 @@ use crate::signal::resample::whole_steps;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::gram::Gram;
+use super::jackknife;
 use super::normal::Normal;
 use super::projected::Projected;
 use super::small::{add, directions, dot, solve_symmetric};
@@ -97,9 +98,9 @@ impl<'a> Present<'a> {
         })
     }
 
-    /// Wald test of the candidate: `gain' S V^-1 S gain`, where `V` sums products of the scores of whole blocks of time, so
-    /// that samples of one block do not count as independent. With `B` blocks and `p` directions in which the columns are new,
-    /// `(B - p) / (p B)` times it is compared with `F(p, B - p)`.
+    /// Wald test of the candidate: `gain' S V^-1 S gain`, where `V` is the jackknife's over whole blocks of time ([`jackknife`]), so that
+    /// samples of one block do not count as independent, and a gain that hangs on one block is worth nothing. With `B` blocks and `p`
+    /// directions in which the columns are new, `(B - p) / (p B)` times it is compared with `F(p, B - p)`.
     ///
     /// Blocks are as long as the products of columns and what is left are correlated: a slow wander of the zero is next to nothing of a
     /// column that changes its sign with the motion. Where the scores of neighboring blocks are alike all the same, as they are of a
@@ -123,7 +124,7 @@ impl<'a> Present<'a> {
             correlation = of_rest.fold(correlation, f64::max);
         }
         let least = LEAST_BLOCKS.max(BLOCKS_OF_A_PARAMETER * count);
-        let scores = self.block_scores(&products, correlation, least);
+        let (blocks, scores) = self.block_scores(&products, correlation, least);
 
         // In directions of the columns that are new, of which there are `p`.
         let directions = directions(&projected.information, LEAST_NEW.powi(2));
@@ -136,13 +137,20 @@ impl<'a> Present<'a> {
         let moved = projected.information.iter();
         let moved: Vec<f64> = moved.map(|row| dot(row, &projected.gain)).collect();
         let moved = along(&moved);
-        let mut variance = vec![vec![0.0; moved.len()]; moved.len()];
-        for score in &scores {
-            let score = along(score);
-            for (row, a) in variance.iter_mut().zip(&score) {
-                add(row, *a, &score);
-            }
-        }
+        let both = |matrix: &[Vec<f64>]| jackknife::along(&directions, matrix);
+        let whole = both(&projected.information);
+        let left_out = blocks.iter().zip(&scores).map(|(block, score)| {
+            let own = both(&self.information(&columns, block));
+            jackknife::score(&whole, &own, &along(score))
+        });
+        let Some(left_out) = left_out.collect::<Option<Vec<_>>>() else {
+            return Score {
+                f: 0.0,
+                p_value: 1.0,
+                rest,
+            };
+        };
+        let mut variance = jackknife::variance(&left_out);
         // What a zero that walks makes of them.
         let walked = self.walked(&columns, &rest);
         let half: Vec<Vec<f64>> = walked.iter().map(|row| along(row)).collect();
@@ -152,7 +160,7 @@ impl<'a> Present<'a> {
             }
         }
         let wald = dot(&moved, &solve_symmetric(&variance, &moved));
-        let (parameters, blocks) = (moved.len() as f64, scores.len() as f64);
+        let (parameters, blocks) = (moved.len() as f64, blocks.len() as f64);
         let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
         let p_value = FisherSnedecor::new(parameters, blocks - parameters)
             .map_or(1.0, |distribution| distribution.sf(f));
@@ -175,13 +183,28 @@ impl<'a> Present<'a> {
         sum
     }
 
-    /// Sums of products over blocks that are independent, `[block][column]`.
+    /// Products of the columns with each other in a block, weighed and summed over joints.
+    fn information(&self, columns: &[Vec<Vec<f64>>], block: &Range<usize>) -> Vec<Vec<f64>> {
+        let count = columns.first().map_or(0, Vec::len);
+        let mut sum = vec![vec![0.0; count]; count];
+        for (columns, sigma) in columns.iter().zip(self.sigma) {
+            let weight = sigma.powi(-2);
+            for (row, a) in sum.iter_mut().zip(columns) {
+                for (entry, b) in row.iter_mut().zip(columns) {
+                    *entry += weight * dot(&a[block.clone()], &b[block.clone()]);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Blocks that are independent, and sums of products over them, `[block][column]`.
     fn block_scores(
         &self,
         products: &[Vec<f64>],
         mut correlation: f64,
         least: usize,
-    ) -> Vec<Vec<f64>> {
+    ) -> (Vec<Range<usize>>, Vec<Vec<f64>>) {
         let mut count = usize::MAX;
         loop {
             let blocks = self.blocks(correlation, least);
@@ -194,7 +217,7 @@ impl<'a> Present<'a> {
             let scores: Vec<Vec<f64>> = blocks.iter().map(sum).collect();
             let is_alike = (0..products.len()).any(|column| are_alike(&scores, column));
             if !is_alike || blocks.len() >= count {
-                return scores;
+                return (blocks, scores);
             }
             count = blocks.len();
             correlation *= 2.0;
