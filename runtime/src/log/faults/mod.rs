@@ -12,6 +12,7 @@ mod fault;
 mod held;
 mod pushes;
 mod resting;
+mod reversals;
 mod slips;
 mod spikes;
 mod velocity;
@@ -23,6 +24,7 @@ use std::ops::Range;
 pub use fault::{Fault, LateChannel, Stretches};
 
 use super::Log;
+use crate::signal::encoder_step;
 
 /// What is replaced up to this long is bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
 pub(super) const BRIDGED_S: f64 = 0.01;
@@ -30,6 +32,9 @@ pub(super) const BRIDGED_S: f64 = 0.01;
 /// Samples and steps beyond this share are faults' own, where there are any; a step is steep beyond so many times what others are below.
 const FEW: f64 = 0.9;
 const STEEP: f64 = 8.0;
+
+/// One of the smallest: rounding makes smaller ones here and there.
+const FEWEST: f64 = 0.1;
 
 /// A log after its faults were looked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,19 +131,23 @@ impl Log {
             return Vec::new();
         }
         let channel = || format!("tau{}", joint + 1);
+        let faulty = |mended: &Self, found| {
+            let found = pushes::without(found, &mended.q);
+            reversals::without(found, &mended.q[joint])
+        };
         let found = dropouts::of_torque(tau, &self.q[joint], self.rate_hz());
-        let at = self.cut_out(tau, pushes::without(found, &self.q));
+        let at = self.cut_out(tau, faulty(self, found));
         let dropouts = at.map(|at| Fault::Dropouts {
             channel: channel(),
             at,
         });
         let found = bursts::find(tau, self.rate_hz());
-        let at = self.cut_out(tau, pushes::without(found, &self.q));
+        let at = self.cut_out(tau, faulty(self, found));
         let bursts = at.map(|at| Fault::Bursts {
             channel: channel(),
             at,
         });
-        let found = pushes::without(spikes::find(tau), &self.q);
+        let found = faulty(self, spikes::find(tau));
         let spikes = self.replace_spikes(tau, found, channel());
         let at = self.cut_out(tau, held::of_torque(tau, &self.q[joint]));
         let held = at.map(|at| Fault::Held {
@@ -295,6 +304,16 @@ fn has_few_levels(values: &[f64], most: usize) -> bool {
             levels.push(*value);
         }
         levels.len() <= most
+    })
+}
+
+/// What an encoder resolves. Where a joint moves by many steps at a time these do not say it, but how they change from one to the next does.
+fn resolution(position: &[f64]) -> f64 {
+    encoder_step(position).unwrap_or_else(|| {
+        let bends = position
+            .windows(3)
+            .map(|p| (p[2] - 2.0 * p[1] + p[0]).abs());
+        quantile(moved(&bends.collect::<Vec<_>>()), FEWEST)
     })
 }
 

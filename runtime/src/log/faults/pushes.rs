@@ -3,8 +3,7 @@
 
 use std::ops::Range;
 
-use super::{moved, quantile};
-use crate::signal::encoder_step;
+use super::{quantile, resolution};
 
 /// Fewest samples that a speed is taken of.
 const REACH: usize = 10;
@@ -12,9 +11,6 @@ const REACH: usize = 10;
 /// How many times the changes of speed around one is that a push makes, where that is so of most; and where it is so of a single one.
 const PUSHED: f64 = 6.0;
 const PUSHED_ALONE: f64 = 20.0;
-
-/// One of the smallest: rounding makes smaller ones here and there.
-const FEWEST: f64 = 0.1;
 
 /// Changes of speed that are looked at on either side.
 const AROUND: usize = 8;
@@ -41,16 +37,6 @@ pub(super) fn without(mut found: Vec<Range<usize>>, positions: &[Vec<f64>]) -> V
         push.is_none_or(|push| push <= PUSHED_ALONE)
     });
     found
-}
-
-/// What an encoder resolves. Where a joint moves by many steps at a time these do not say it, but how they change from one to the next does.
-fn resolution(position: &[f64]) -> f64 {
-    encoder_step(position).unwrap_or_else(|| {
-        let bends = position
-            .windows(3)
-            .map(|p| (p[2] - 2.0 * p[1] + p[0]).abs());
-        quantile(moved(&bends.collect::<Vec<_>>()), FEWEST)
-    })
 }
 
 /// By how many times as much the speed changes across samples as it does before and behind; none near the ends.
