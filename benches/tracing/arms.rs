@@ -19,7 +19,7 @@ pub const DECLARED: [(&str, &str); 3] = [
 ];
 
 /// All of them.
-pub const ARMS: &[Arm] = &[
+pub static ARMS: &[Arm] = &[
     Arm {
         name: "two-link",
         text: include_str!("two_link.robot"),

@@ -6,7 +6,7 @@ use robot_model::columns::{Arm as _, Candidate, Columns as _, Entry};
 use robot_model::identify::{Identify, Method, Stack, torque_of};
 use robot_model::log::Log;
 use robot_model::signal::{Bands, Prepared, prepare};
-use robot_model_benches::baselines::{ALL, Choice, Column, Rows};
+use robot_model_benches::baselines::{ALL, Choice, Column, FOLDS, Folds, Rows, by_lot};
 use robot_model_cli::close_the_loop::Loop;
 
 use crate::columns::{Fit, Trial, load};
@@ -15,6 +15,9 @@ use crate::experiment::said;
 /// As for the tracer: an effect is named if the raw error of one of its joints falls by this share, and six effects at most.
 const MATERIAL: f64 = 0.05;
 const MOST_EFFECTS: usize = 6;
+
+/// Length of a block of a motion that does not repeat, s.
+const BLOCK_S: f64 = 1.0;
 
 /// Of more effects than this the rest is not looked at.
 const MOST_TRIED: usize = 20;
@@ -49,19 +52,25 @@ pub fn answers(closed: &Loop) -> Result<Vec<Answer>, String> {
         .collect();
     let fit = fitted(closed)?;
     let trials = fit.trials(&candidates);
-    let given = Given::new(&fit, &trials);
-    let forming = start.elapsed().as_secs_f64();
+    let rows = fit.stack.samples() * fit.stack.dof();
+    let lots = Given::new(&fit, &trials, &by_lot(rows));
+    let blocks = Given::new(&fit, &trials, &blocks(&fit, &closed.traced));
+    let forming = start.elapsed().as_secs_f64() / 2.0;
     ALL.iter()
-        .map(|(method, baseline)| {
+        .map(|baseline| {
             let start = Instant::now();
-            let choices = baseline(&given.rows);
+            let given = match baseline.folds {
+                Folds::ByLot => &lots,
+                Folds::Blocks => &blocks,
+            };
+            let choices = (baseline.choose)(&given.rows);
             let named = given.material(&choices)?.into_iter();
             let told = |effect: usize| {
                 let candidate = candidates[effect];
                 (candidate.kind().to_owned(), candidate.joints().to_vec())
             };
             Ok(Answer {
-                method,
+                method: baseline.name,
                 named: named.map(told).collect(),
                 chosen: choices.len(),
                 seconds: forming + start.elapsed().as_secs_f64(),
@@ -95,6 +104,21 @@ fn fitted(closed: &Loop) -> Result<Fit<'_>, String> {
     })
 }
 
+/// Folds of blocks of time one after the other, or of intervals of the phase of a motion that repeats; the same for all joints.
+fn blocks(fit: &Fit<'_>, logs: &[Log]) -> Vec<usize> {
+    let logs = fit.stack.segments.iter().zip(logs);
+    let of_log = logs.flat_map(|(segment, log)| {
+        let cycle = log.period().unwrap_or(BLOCK_S * FOLDS as f64);
+        let fold = move |time: &f64| {
+            let place = (time / cycle).fract() * FOLDS as f64;
+            (1..FOLDS).filter(|k| *k as f64 <= place).count()
+        };
+        segment.time.iter().map(fold)
+    });
+    let one: Vec<usize> = of_log.collect();
+    one.repeat(fit.stack.dof())
+}
+
 /// All columns as weighted rows, joint after joint.
 struct Given<'a> {
     fit: &'a Fit<'a>,
@@ -105,7 +129,7 @@ struct Given<'a> {
 }
 
 impl<'a> Given<'a> {
-    fn new(fit: &'a Fit<'a>, trials: &'a [Trial<'a>]) -> Self {
+    fn new(fit: &'a Fit<'a>, trials: &'a [Trial<'a>], fold_of_row: &[usize]) -> Self {
         let samples = fit.stack.samples();
         let all = samples * fit.stack.dof();
         let put = |to: &mut [f64], joint: usize, values: &[f64]| {
@@ -142,7 +166,7 @@ impl<'a> Given<'a> {
             fit,
             trials,
             places,
-            rows: Rows::new(&model, &columns, &target),
+            rows: Rows::new(&model, &columns, &target, fold_of_row),
         }
     }
 

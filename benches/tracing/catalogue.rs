@@ -1,5 +1,7 @@
 //! What is put into an arm: every effect of the library with a law of its size, faults of logs, and laws that no library has.
 
+use std::f64::consts::TAU;
+
 /// A shape parameter by the size of its effect.
 pub type OfSize = fn(f64) -> f64;
 
@@ -30,7 +32,12 @@ pub struct Injection {
     pub effect: Option<&'static str>,
     /// Its law, where the library does not have it.
     pub law: Option<&'static str>,
+    /// Bits a turn of the encoders, where they are coarser than [`ENCODER_STEP`].
+    pub encoder_bits: Option<u8>,
 }
+
+/// Steps of the encoders, rad: between 18 and 19 bits a turn.
+const ENCODER_STEP: f64 = 2e-5;
 
 /// What an injection is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,13 +69,26 @@ const NONE: Injection = Injection {
     part: 1.0,
     effect: None,
     law: None,
+    encoder_bits: None,
 };
 
 /// Everything that is tried.
-pub const ALL: &[Injection] = &[
+pub static ALL: &[Injection] = &[
     Injection {
         kind: "nothing",
         place: Place::Nowhere,
+        ..NONE
+    },
+    Injection {
+        kind: "nothing",
+        place: Place::Nowhere,
+        encoder_bits: Some(16),
+        ..NONE
+    },
+    Injection {
+        kind: "nothing",
+        place: Place::Nowhere,
+        encoder_bits: Some(14),
         ..NONE
     },
     Injection {
@@ -354,5 +374,11 @@ impl Injection {
     /// Whether something is there that `trace` may name.
     pub fn is_named(&self) -> bool {
         self.place != Place::Nowhere && self.law.is_none()
+    }
+
+    /// Steps of the encoders, rad.
+    pub fn encoder_step(&self) -> f64 {
+        self.encoder_bits
+            .map_or(ENCODER_STEP, |bits| TAU / f64::from(bits).exp2())
     }
 }

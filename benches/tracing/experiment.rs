@@ -15,16 +15,16 @@ use robot_model_spec::load;
 use robot_model_spec::parameter::Status;
 
 use crate::arms::{Arm, DECLARED};
-use crate::catalogue::{Injection, Place};
+use crate::catalogue::{ALL, Injection, Place};
+use crate::draw::{Draw, place};
 use crate::motion::{CHANNELS, Waves};
 
 /// Lengths of the logs, s, and their rate, Hz.
 const SECONDS: [f64; 2] = [20.0, 15.0];
 const RATE_HZ: f64 = 500.0;
 
-/// Steps of the encoders, rad. Noise of the torques as shares of their root mean square: white, correlated with 0.9 from one sample to
+/// Noise of the torques as shares of their root mean square: white, correlated with 0.9 from one sample to
 /// the next, and a slow wander.
-const ENCODER: f64 = 2e-5;
 const WHITE: f64 = 0.004;
 const COLORED: f64 = 0.006;
 const CORRELATION: f64 = 0.9;
@@ -45,7 +45,7 @@ pub struct Case {
     pub injection: &'static Injection,
     /// Root mean square of what it adds, as a share of the joint's torque.
     pub share: f64,
-    /// Of motion, joint and noise.
+    /// Of joint, motion and noise.
     pub seed: u64,
 }
 
@@ -58,6 +58,8 @@ pub struct Experiment {
     pub truth: Option<String>,
     /// Joints that it is on.
     pub joints: Vec<usize>,
+    /// Whether its motions repeat.
+    pub repeats: bool,
     /// The log that is fitted, the one that is not.
     pub logs: [Log; 2],
 }
@@ -68,20 +70,9 @@ pub(crate) fn said(error: impl Display) -> String {
 }
 
 impl Case {
-    /// The joints that it is on, from 0.
-    pub fn joints(&self) -> Vec<usize> {
-        let dof = self.arm.joints.len();
-        let turn = usize::try_from(self.seed).unwrap_or(0);
-        match self.injection.place {
-            Place::Joint if self.injection.kind == "link-inertial-error" => vec![turn % (dof - 1)],
-            Place::Joint | Place::Log => vec![turn % dof],
-            Place::Pair => {
-                let second = 1 + turn % (dof - 1);
-                vec![second - 1, second]
-            }
-            Place::Last => vec![dof - 1],
-            Place::Arm | Place::Nowhere => Vec::new(),
-        }
+    /// Its place in the catalogue.
+    pub fn number(&self) -> usize {
+        place(ALL, self.injection)
     }
 
     /// Moves the arm twice. `None` where this much of it cannot be: friction of a load that is not there.
@@ -89,36 +80,30 @@ impl Case {
     /// # Errors
     /// What went wrong, in words.
     pub fn run(&self) -> Result<Option<Experiment>, String> {
-        let joints = self.joints();
+        let draw = Draw::new(self);
+        let joints = draw.joints;
         let declared = self.declared(&joints, true)?;
-        let motions = [0, 1].map(|k| {
-            let model = load(self.arm.name, &declared).map_err(said)?;
-            Ok::<_, String>(Waves::new(
-                &model,
-                SECONDS[k],
-                100 * self.seed + 2 * k as u64 + self.seed % 2,
-            ))
-        });
-        let [identify, validate] = motions;
-        let (identify, validate) = (identify?, validate?);
-        if self.injection.effect() == "recurring_force" && !identify.repeats {
-            return Ok(None);
-        }
+        let model = load(self.arm.name, &declared).map_err(said)?;
+        let waves = |k: usize| Waves::new(&model, SECONDS[k], draw.motions[k], draw.repeats);
+        let (identify, validate) = (waves(0), waves(1));
         let Some(size) = self.size(&declared, &joints, &identify)? else {
             return Ok(None);
         };
         let machine = self.machine(&joints, size, false)?;
-        let log = |waves: &Waves, part: u64| self.measure(&machine, size, waves, part);
-        let mut logs = [log(&identify, 0)?, log(&validate, 1)?];
-        if self.injection.kind == "corrupt-samples" {
-            for log in &mut logs {
-                self.spoil(log, joints[0]);
+        let log = |waves: &Waves, part: usize| {
+            let noise = draw.noises[part];
+            let mut log = self.measure(&machine, size, waves, part, noise)?;
+            if self.injection.kind == "corrupt-samples" {
+                self.spoil(&mut log, joints[0], noise);
             }
-        }
+            Ok::<_, String>(log)
+        };
+        let logs = [log(&identify, 0)?, log(&validate, 1)?];
         let is_said = self.injection.kind != "corrupt-samples";
         Ok(Some(Experiment {
             declared,
             truth: is_said.then_some(machine),
+            repeats: draw.repeats,
             joints,
             logs,
         }))
@@ -231,7 +216,14 @@ impl Case {
     }
 
     /// Moves the machine under a controller that knows it, and logs it with noise.
-    fn measure(&self, machine: &str, size: f64, waves: &Waves, part: u64) -> Result<Log, String> {
+    fn measure(
+        &self,
+        machine: &str,
+        size: f64,
+        waves: &Waves,
+        part: usize,
+        noise: u64,
+    ) -> Result<Log, String> {
         let mut compiled = compile_model(&load(self.arm.name, machine).map_err(said)?);
         if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
             compiled = compiled.ungrouped();
@@ -242,11 +234,11 @@ impl Case {
         let place = |input: &String| CHANNELS.iter().position(|name| name == input);
         let setting = Loop {
             log_rate: RATE_HZ,
-            duration: SECONDS[usize::from(part == 1)],
+            duration: SECONDS[part],
             sensors: Sensors {
-                encoder_step: ENCODER,
+                encoder_step: self.injection.encoder_step(),
                 velocity_hz: 50.0,
-                seed: self.seed + part,
+                seed: noise,
                 ..Sensors::default()
             },
             torque_delay: if self.injection.kind == "time-delay" {
@@ -266,11 +258,11 @@ impl Case {
             .run(plant, &mut controller, &trajectory, &mut |_| {})
             .map_err(said)?;
         let mut tau = record.tau;
-        let mut random = ChaCha8Rng::seed_from_u64(7919 * self.seed + part);
+        let mut random = ChaCha8Rng::seed_from_u64(!noise);
         for values in &mut tau {
             disturb(values, &mut random);
         }
-        let name = ["identification", "validation"][usize::from(part == 1)];
+        let name = ["identification", "validation"][part];
         let mut log = Log::from_samples(name, record.time, record.q, tau).map_err(said)?;
         let logged = record.extra.into_iter();
         log.extra = logged.filter(|one| one.name != MOTION_PHASE).collect();
@@ -278,8 +270,8 @@ impl Case {
     }
 
     /// Spikes in the torque of a joint, of both signs.
-    fn spoil(&self, log: &mut Log, joint: usize) {
-        let mut random = ChaCha8Rng::seed_from_u64(104_729 * self.seed);
+    fn spoil(&self, log: &mut Log, joint: usize, noise: u64) {
+        let mut random = ChaCha8Rng::seed_from_u64(noise.rotate_left(1));
         let size = self.share * rms(log.tau[joint].iter().copied()) / SPIKES.sqrt();
         for value in &mut log.tau[joint] {
             if random.random_bool(SPIKES) {

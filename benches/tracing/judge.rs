@@ -6,6 +6,7 @@ use robot_model_cli::close_the_loop::{Loop, Progress, close};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
 use robot_model_spec::load;
+use robot_model_tests::cases::WITHOUT_JOINT;
 use serde::{Deserialize, Serialize};
 
 use crate::baselines;
@@ -40,6 +41,12 @@ pub struct Row {
     pub kind: String,
     pub share: f64,
     pub seed: u64,
+    /// Its place in the catalogue: laws of no library share a name.
+    pub number: usize,
+    /// Bits a turn of the encoders, where they are coarse.
+    pub encoder_bits: Option<u8>,
+    /// Whether its motions repeat.
+    pub repeats: bool,
     /// Joints from 1.
     pub joints: Vec<usize>,
     /// Whether leaving it out costs something.
@@ -78,6 +85,11 @@ pub struct Answer {
 type Said = [(String, Vec<usize>)];
 
 impl Row {
+    /// What it shares with the same effect in other sizes: joint, motion and noise.
+    pub fn draw(&self) -> (&str, usize, u64) {
+        (&self.arm, self.number, self.seed)
+    }
+
     /// Whether it is of this size.
     pub fn is_of(&self, share: f64) -> bool {
         (self.share - share).abs() < 1e-9
@@ -156,6 +168,9 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         kind: case.injection.kind.to_owned(),
         share: case.share,
         seed: case.seed,
+        number: case.number(),
+        encoder_bits: case.injection.encoder_bits,
+        repeats: experiment.repeats,
         joints: experiment.joints.iter().map(|joint| joint + 1).collect(),
         is_material,
         mark: judged(closed.outcome(), &said),
@@ -278,14 +293,7 @@ fn mark(
         // A body more on the last link is that link's error.
         let is_last =
             kind != "link-inertial-error" || injection.kind != "payload" || on == &[dof - 1];
-        let anywhere = [
-            "payload",
-            "base-tilt",
-            "time-delay",
-            "corrupt-samples",
-            "external-force",
-        ]
-        .contains(&injection.kind);
+        let anywhere = WITHOUT_JOINT.contains(&injection.kind);
         is_kind
             && is_last
             && (anywhere || on.is_empty() || on.iter().any(|joint| joints.contains(joint)))

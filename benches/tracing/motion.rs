@@ -29,15 +29,12 @@ type Wave = (f64, f64, f64);
 pub struct Waves {
     joints: Vec<(f64, Vec<Wave>)>,
     seconds: f64,
-    /// Whether it comes back every `1 / LOWEST_HZ` seconds.
-    pub repeats: bool,
 }
 
 impl Waves {
-    /// Random ones; every seed has its own. Even seeds repeat every `1 / LOWEST_HZ` seconds, odd ones do not.
-    pub fn new(model: &Model, seconds: f64, seed: u64) -> Self {
+    /// Random ones; every seed has its own. With `repeats` they come back every `1 / LOWEST_HZ` seconds.
+    pub fn new(model: &Model, seconds: f64, seed: u64, repeats: bool) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let repeats = seed.is_multiple_of(2);
         let joints = model.joints.iter().map(|joint| {
             let (low, high) = joint.limits.position.unwrap_or((-LIMITS.0, LIMITS.0));
             let fastest = joint.limits.velocity.unwrap_or(LIMITS.1);
@@ -64,7 +61,6 @@ impl Waves {
         Self {
             joints: joints.collect(),
             seconds,
-            repeats,
         }
     }
 

@@ -1,13 +1,18 @@
 //! Rows as a table, and what they come to.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use crate::arms::ARMS;
+use crate::interval::wilson;
 use crate::judge::{Mark, Row};
 
 /// Counts of a set of rows.
 struct Counts {
     all: usize,
     of: Vec<(Mark, usize)>,
+    /// Experiments that share nothing.
+    draws: usize,
 }
 
 impl Counts {
@@ -22,13 +27,26 @@ impl Counts {
         ];
         let mut of: Vec<(Mark, usize)> = marks.map(|mark| (mark, 0)).to_vec();
         let mut all = 0;
+        let mut draws = BTreeSet::new();
         for row in rows {
             all += 1;
+            draws.insert(row.draw());
             for (mark, count) in &mut of {
                 *count += usize::from(*mark == row.mark);
             }
         }
-        Self { all, of }
+        Self {
+            all,
+            of,
+            draws: draws.len(),
+        }
+    }
+
+    /// A share with its 95 % interval.
+    fn share(&self, marks: &[Mark]) -> String {
+        let percent = self.percent(marks);
+        let (low, high) = wilson(percent / 100.0, self.draws);
+        format!("{percent:.0} % ({:.0} to {:.0})", 100.0 * low, 100.0 * high)
     }
 
     fn percent(&self, marks: &[Mark]) -> f64 {
@@ -95,51 +113,60 @@ pub fn table(rows: &[Row]) -> String {
         }
     }
     let of = |wanted: &dyn Fn(&&Row) -> bool| Counts::new(rows.iter().filter(wanted));
-    for size in &sizes {
-        let counts = of(&|row| row.is_material && row.is_of(*size));
-        if counts.all == 0 {
-            continue;
+    let mut tell = |what: &str, wanted: &dyn Fn(&&Row) -> bool, shares: &[(&str, &[Mark])]| {
+        let counts = of(wanted);
+        if counts.all > 0 {
+            let shares = shares
+                .iter()
+                .map(|(name, marks)| format!("{name} {}", counts.share(marks)));
+            let shares: Vec<String> = shares.collect();
+            let _ = writeln!(text, "{what} ({}): {}", counts.all, shares.join(", "));
         }
-        let _ = writeln!(
-            text,
-            "{} % of torque, where it matters ({}): exact {:.0} %, exact or near {:.0} %, wrong {:.0} %",
-            100.0 * size,
-            counts.all,
-            counts.percent(&[Mark::Exact]),
-            counts.percent(&[Mark::Exact, Mark::Near]),
-            counts.percent(&[Mark::Wrong])
-        );
+    };
+    let named: [(&str, &[Mark]); 3] = [
+        ("exact", &[Mark::Exact]),
+        ("exact or near", &[Mark::Exact, Mark::Near]),
+        ("wrong", &[Mark::Wrong]),
+    ];
+    for size in &sizes {
+        let head = format!("{} % of torque, where it matters", 100.0 * size);
+        tell(&head, &|row| row.is_material && row.is_of(*size), &named);
+        for arm in ARMS {
+            let is_here = |row: &&Row| row.is_material && row.is_of(*size) && row.arm == arm.name;
+            tell(&format!("  of these on {}", arm.name), &is_here, &named);
+        }
+        for (what, repeats) in [("repeat", true), ("do not repeat", false)] {
+            let is_here =
+                |row: &&Row| row.is_material && row.is_of(*size) && row.repeats == repeats;
+            tell(
+                &format!("  of these, motions that {what}"),
+                &is_here,
+                &named,
+            );
+        }
     }
-    let clean = of(&|row| row.kind == "nothing");
-    if clean.all > 0 {
-        let alarms = 100.0 - clean.percent(&[Mark::Exact]);
-        let _ = writeln!(
-            text,
-            "clean arms ({}): false alarms {alarms:.0} %",
-            clean.all
+    // All but exact: a clean arm that is unexplained is an alarm, too.
+    let alarms: [(&str, &[Mark]); 1] = [(
+        "false alarms",
+        &[Mark::Abstained, Mark::Missed, Mark::Wrong],
+    )];
+    tell("clean arms", &|row| row.kind == "nothing", &alarms);
+    for bits in [None, Some(16), Some(14)] {
+        let what = bits.map_or_else(
+            || "usual encoders".to_owned(),
+            |bits| format!("{bits} bits"),
         );
+        let is_here = |row: &&Row| row.kind == "nothing" && row.encoder_bits == bits;
+        tell(&format!("  of these with {what}"), &is_here, &alarms);
     }
-    let small = of(&|row| !row.is_material && row.kind != "nothing" && row.kind != "unknown");
-    if small.all > 0 {
-        let wrong = small.percent(&[Mark::Wrong]);
-        let _ = writeln!(
-            text,
-            "too little to matter ({}): wrong names {wrong:.0} %",
-            small.all
-        );
-    }
-    let strange = of(&|row| row.kind == "unknown");
-    if strange.all > 0 {
-        let (wrong, missed) = (
-            strange.percent(&[Mark::Wrong]),
-            strange.percent(&[Mark::Missed]),
-        );
-        let _ = writeln!(
-            text,
-            "laws that no library has ({}): wrong names {wrong:.0} %, not seen {missed:.0} %",
-            strange.all
-        );
-    }
+    let is_small = |row: &&Row| !row.is_material && row.kind != "nothing" && row.kind != "unknown";
+    tell("too little to matter", &is_small, &named[2..]);
+    let unknown: [(&str, &[Mark]); 2] = [("wrong", &[Mark::Wrong]), ("not seen", &[Mark::Missed])];
+    tell(
+        "laws that no library has",
+        &|row| row.kind == "unknown",
+        &unknown,
+    );
     let mut ratios: Vec<f64> = rows
         .iter()
         .filter(|row| row.is_material && row.mark == Mark::Exact)

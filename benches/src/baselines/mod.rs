@@ -1,31 +1,72 @@
-//! What well-known ways to choose columns make of the columns that the tracer has: LASSO, sequential thresholding, forward selection.
+//! What well-known ways to choose columns make of the columns that the tracer has: LASSO, sequential thresholding, forward
+//! selection by F tests and by cross-validation.
 //!
 //! ```text
-//! model, columns, target -rows-> Rows -lasso, thresholding, selection-> Choices
+//! model, columns, target -rows-> Rows -lasso, thresholding, selection, blocked-> Choices
 //! ```
 //!
-//! All of them count rows as independent, as they are used; the model's columns are always in. Inside [`Rows`] columns are without what the
+//! The first three count rows as independent, as they are used, the last has folds of whole blocks; the model's columns are always in. Inside [`Rows`] columns are without what the
 //! model says of them and have a mean square of one, so that penalties and thresholds are alike for all.
 
+mod blocked;
 mod lasso;
 mod products;
 mod rows;
+mod screen;
 mod selection;
 mod thresholding;
 
+pub use blocked::blocked;
 pub use lasso::lasso;
-pub use rows::{Column, Rows};
+pub use rows::{Column, FOLDS, Rows, by_lot};
 pub use selection::selection;
 pub use thresholding::thresholding;
 
-/// What every baseline is: a choice of effects, those that explain most first.
-pub type Baseline = fn(&Rows) -> Vec<Choice>;
+/// No more effects than the tracer looks for.
+const MOST_EFFECTS: usize = 6;
 
-/// All of them, by name.
-pub const ALL: [(&str, Baseline); 3] = [
-    ("LASSO", lasso),
-    ("thresholding", thresholding),
-    ("F-selection", selection),
+/// How a baseline's rows are cut into folds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Folds {
+    /// By lot.
+    ByLot,
+    /// Blocks of time, or of the phase of a motion that repeats.
+    Blocks,
+}
+
+/// What every baseline is: a choice of effects, those that explain most first.
+#[derive(Debug, Clone, Copy)]
+pub struct Baseline {
+    /// Its name.
+    pub name: &'static str,
+    /// Its folds.
+    pub folds: Folds,
+    /// Its choice.
+    pub choose: fn(&Rows) -> Vec<Choice>,
+}
+
+/// All of them.
+pub const ALL: [Baseline; 4] = [
+    Baseline {
+        name: "LASSO",
+        folds: Folds::ByLot,
+        choose: lasso,
+    },
+    Baseline {
+        name: "thresholding",
+        folds: Folds::ByLot,
+        choose: thresholding,
+    },
+    Baseline {
+        name: "F-selection",
+        folds: Folds::ByLot,
+        choose: selection,
+    },
+    Baseline {
+        name: "blocked CV",
+        folds: Folds::Blocks,
+        choose: blocked,
+    },
 ];
 
 /// An effect that was chosen.
@@ -39,7 +80,7 @@ pub struct Choice {
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, Column, Rows};
+    use super::{ALL, Column, Rows, by_lot};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -68,13 +109,14 @@ mod tests {
                 + noisy * rest[k]
         };
         let target: Vec<f64> = (0..ROWS).map(at).collect();
-        Rows::new(&[model], &columns, &target)
+        Rows::new(&[model], &columns, &target, &by_lot(ROWS))
     }
 
     #[test]
     fn each_finds_what_is_there_the_largest_first() {
-        for (name, baseline) in ALL {
-            let found = baseline(&rows(0.3));
+        for baseline in ALL {
+            let name = baseline.name;
+            let found = (baseline.choose)(&rows(0.3));
             let effects: Vec<usize> = found.iter().map(|choice| choice.effect).collect();
             assert_eq!(effects[..2], [3, 1], "{name}: {effects:?}");
             assert_eq!(found[0].columns, [3], "{name}");
@@ -92,9 +134,15 @@ mod tests {
         let columns: Vec<Column> = (0..5).map(column).collect();
         let rest = noise(99, 400);
         let target: Vec<f64> = model.iter().zip(&rest).map(|(m, r)| m + 0.3 * r).collect();
-        for (name, baseline) in ALL {
-            let found = baseline(&Rows::new(std::slice::from_ref(&model), &columns, &target));
-            assert!(found.is_empty(), "{name}: {found:?}");
+        let rows = Rows::new(
+            std::slice::from_ref(&model),
+            &columns,
+            &target,
+            &by_lot(400),
+        );
+        for baseline in ALL {
+            let found = (baseline.choose)(&rows);
+            assert!(found.is_empty(), "{}: {found:?}", baseline.name);
         }
     }
 }

@@ -7,15 +7,13 @@ use rand_chacha::ChaCha8Rng;
 
 use super::Choice;
 use super::products::{Products, Reduced};
+use super::screen::screen;
 
 /// Folds of cross-validation.
-const FOLDS: usize = 10;
+pub const FOLDS: usize = 10;
 
 /// A column is new if this share of its norm is outside the model's columns, as for the tracer.
 pub(super) const LEAST_NEW: f64 = 1e-3;
-
-/// Of more columns than this the trials that explain most alone are kept: sure independence screening (Fan & Lv 2008).
-const MOST_COLUMNS: usize = 600;
 
 /// Added to the diagonal of a fit of chosen columns, which may be next to each other.
 const RIDGE: f64 = 1e-8;
@@ -43,7 +41,7 @@ pub(super) struct Label {
 /// Coefficients of all columns at every step, of a penalty or a threshold.
 pub(super) type Path = fn(&Products, &[f64]) -> Vec<Vec<f64>>;
 
-/// Rows, cut into folds as if they were independent.
+/// Rows, cut into folds.
 #[derive(Debug)]
 pub struct Rows {
     /// An orthonormal basis of the model's columns, what it leaves of the effects' columns, and of the target.
@@ -58,9 +56,14 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Weighted rows. Columns that the model says are left out, and the least of too many.
+    /// Weighted rows, cut by the fold of each. Columns that the model says are left out, and the least of too many.
     #[must_use]
-    pub fn new(model: &[Vec<f64>], columns: &[Column], target: &[f64]) -> Self {
+    pub fn new(
+        model: &[Vec<f64>],
+        columns: &[Column],
+        target: &[f64],
+        fold_of_row: &[usize],
+    ) -> Self {
         let mut basis: Vec<Vec<f64>> = Vec::new();
         for column in model {
             basis.extend(new_of(column, &basis));
@@ -87,7 +90,10 @@ impl Rows {
         }
         all.push(left);
         let table = Mat::from_fn(target.len(), all.len(), |row, column| all[column][row]);
-        let folds = folds(target.len());
+        let mut folds = vec![Vec::new(); FOLDS];
+        for (row, fold) in fold_of_row.iter().enumerate() {
+            folds[*fold].push(row);
+        }
         let of_folds: Vec<Mat<f64>> = folds.iter().map(|rows| products(&table, rows)).collect();
         let mut sum = Mat::zeros(all.len(), all.len());
         for of_fold in &of_folds {
@@ -119,6 +125,14 @@ impl Rows {
         &self.labels
     }
 
+    /// Effect and columns of every trial.
+    pub(super) fn trials(&self) -> Vec<(usize, Vec<usize>)> {
+        let columns: Vec<usize> = (0..self.labels.len()).collect();
+        let trial = |column: usize| (self.labels[column].effect, self.labels[column].trial);
+        let trials = columns.chunk_by(|a, b| trial(*a) == trial(*b));
+        trials.map(|own| (trial(own[0]).0, own.to_vec())).collect()
+    }
+
     /// Products over all rows.
     pub(super) fn products(&self) -> Products {
         Reduced::new(&per_row(&self.all, self.count()), self.model).products
@@ -127,17 +141,22 @@ impl Rows {
     /// Coefficients on all rows at the sparsest step of a path whose error on held-out rows is within a standard error of the least
     /// (Breiman et al. 1984); `path` gives coefficients for every step, and steps are from the sparsest on.
     pub(super) fn cross_validated(&self, path: Path, steps: &[f64]) -> Vec<f64> {
-        let errors: Vec<Vec<f64>> = (0..FOLDS)
-            .map(|fold| {
-                let reduced = Reduced::new(&self.train(fold), self.model);
-                let path = path(&reduced.products, steps);
-                let error = |coefficients: &Vec<f64>| self.error(fold, &reduced, coefficients);
-                path.iter().map(error).collect()
-            })
-            .collect();
+        let folds = self.reduced().into_iter().enumerate();
+        let errors = folds.map(|(fold, reduced)| -> Vec<f64> {
+            let path = path(&reduced.products, steps);
+            let error = |coefficients: &Vec<f64>| self.error(fold, &reduced, coefficients);
+            path.iter().map(error).collect()
+        });
+        let errors: Vec<Vec<f64>> = errors.collect();
         let step = one_standard_error(&errors);
         let mut path = path(&self.products(), &steps[..=step]);
         path.pop().unwrap_or_default()
+    }
+
+    /// Products over the rows outside each fold, without the model.
+    pub(super) fn reduced(&self) -> Vec<Reduced> {
+        let of_fold = |fold| Reduced::new(&self.train(fold), self.model);
+        (0..FOLDS).map(of_fold).collect()
     }
 
     /// Effects by the power of what their coefficients make.
@@ -198,7 +217,7 @@ impl Rows {
     }
 
     /// Mean squared error on a fold's rows.
-    fn error(&self, fold: usize, reduced: &Reduced, coefficients: &[f64]) -> f64 {
+    pub(super) fn error(&self, fold: usize, reduced: &Reduced, coefficients: &[f64]) -> f64 {
         let columns = coefficients.len();
         let there: Vec<usize> = (0..columns)
             .filter(|c| coefficients[*c].abs() > 0.0)
@@ -239,14 +258,15 @@ fn one_standard_error(errors: &[Vec<f64>]) -> usize {
         .unwrap_or(best)
 }
 
-/// Rows of every fold, drawn by lot.
-fn folds(rows: usize) -> Vec<Vec<usize>> {
+/// Folds of so many rows, drawn by lot as if they were independent.
+#[must_use]
+pub fn by_lot(rows: usize) -> Vec<usize> {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut drawn: Vec<(u64, usize)> = (0..rows).map(|row| (random.random(), row)).collect();
     drawn.sort_unstable();
-    let mut folds = vec![Vec::new(); FOLDS];
+    let mut folds = vec![0; rows];
     for (place, (_, row)) in drawn.into_iter().enumerate() {
-        folds[place % FOLDS].push(row);
+        folds[row] = place % FOLDS;
     }
     folds
 }
@@ -283,40 +303,8 @@ fn take_out(column: &mut [f64], basis: &[Vec<f64>]) {
     }
 }
 
-fn mean_product(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn mean_product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / a.len().max(1) as f64
-}
-
-/// Keeps the trials one of whose columns explains most of the target, as far as there is room.
-fn screen(columns: &mut Vec<(Label, Vec<f64>)>, target: &[f64]) {
-    if columns.len() <= MOST_COLUMNS {
-        return;
-    }
-    let mut trials: Vec<(f64, usize, usize, usize)> = Vec::new();
-    for (label, values) in columns.iter() {
-        let says = mean_product(values, target).abs();
-        match trials.last_mut() {
-            Some((most, effect, trial, count))
-                if (*effect, *trial) == (label.effect, label.trial) =>
-            {
-                *most = most.max(says);
-                *count += 1;
-            }
-            _ => trials.push((says, label.effect, label.trial, 1)),
-        }
-    }
-    trials.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut room = MOST_COLUMNS;
-    trials.retain(|(_, _, _, count)| {
-        let fits = *count <= room;
-        room -= if fits { *count } else { 0 };
-        fits
-    });
-    let kept: std::collections::BTreeSet<(usize, usize)> = trials
-        .into_iter()
-        .map(|(_, effect, trial, _)| (effect, trial))
-        .collect();
-    columns.retain(|(label, _)| kept.contains(&(label.effect, label.trial)));
 }
 
 #[cfg(test)]
@@ -342,7 +330,12 @@ mod tests {
             values,
         };
         let columns = [column(twice), column(noise(2, 50))];
-        let rows = Rows::new(std::slice::from_ref(&model), &columns, &noise(3, 50));
+        let rows = Rows::new(
+            std::slice::from_ref(&model),
+            &columns,
+            &noise(3, 50),
+            &by_lot(50),
+        );
         let numbers: Vec<usize> = rows.labels().iter().map(|label| label.number).collect();
         assert_eq!(numbers, [1]);
         let gram = rows.products().gram;
@@ -365,26 +358,5 @@ mod tests {
             })
             .sum();
         assert!((errors / rows.count() as f64 / none - 1.0).abs() < 1e-6);
-    }
-
-    #[test]
-    fn of_too_many_columns_those_stay_that_say_most() {
-        let target = noise(1, 40);
-        let label = |number: usize| Label {
-            effect: number,
-            trial: 0,
-            number,
-        };
-        let mut columns: Vec<(Label, Vec<f64>)> = (0..MOST_COLUMNS + 5)
-            .map(|number| (label(number), vec![0.0; 40]))
-            .collect();
-        columns[MOST_COLUMNS + 2].1.clone_from(&target);
-        screen(&mut columns, &target);
-        assert_eq!(columns.len(), MOST_COLUMNS);
-        assert!(
-            columns
-                .iter()
-                .any(|(one, _)| one.number == MOST_COLUMNS + 2)
-        );
     }
 }

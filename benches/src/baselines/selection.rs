@@ -2,35 +2,24 @@
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::Choice;
 use super::products::Products;
 use super::rows::{LEAST_NEW, Rows};
+use super::{Choice, MOST_EFFECTS};
 
 /// Chance of a wrong effect in a step, over all trials.
 const SIGNIFICANCE: f64 = 0.05;
-
-/// No more effects than the tracer looks for.
-const MOST_EFFECTS: usize = 6;
 
 /// Effects in the order of their selection.
 #[must_use]
 pub fn selection(rows: &Rows) -> Vec<Choice> {
     let labels = rows.labels();
-    let mut trials: Vec<(usize, usize, Vec<usize>)> = Vec::new();
-    for (column, label) in labels.iter().enumerate() {
-        match trials.last_mut() {
-            Some((effect, trial, columns)) if (*effect, *trial) == (label.effect, label.trial) => {
-                columns.push(column);
-            }
-            _ => trials.push((label.effect, label.trial, vec![column])),
-        }
-    }
+    let trials = rows.trials();
     let mut products = rows.products();
     let count = rows.count() as f64;
     let mut freedom = count - rows.model() as f64;
     let mut found: Vec<Choice> = Vec::new();
     loop {
-        let tests = trials.iter().filter_map(|(effect, _, columns)| {
+        let tests = trials.iter().filter_map(|(effect, columns)| {
             Some((test(&products, columns, freedom)?, *effect, columns))
         });
         let best = tests.max_by(|a, b| a.0.f.total_cmp(&b.0.f));
@@ -107,8 +96,8 @@ fn explained(products: &Products, columns: &[usize]) -> (f64, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Column;
     use super::super::tests::noise;
+    use super::super::{Column, by_lot};
     use super::*;
     use faer::Mat;
 
@@ -147,7 +136,7 @@ mod tests {
                 values: noise(1000 + effect as u64, 200),
             })
             .collect();
-        let rows = Rows::new(&[], &columns, &noise(1, 200));
+        let rows = Rows::new(&[], &columns, &noise(1, 200), &by_lot(200));
         let products = rows.products();
         let alone = (0..100).filter_map(|column| test(&products, &[column], 200.0));
         assert!(alone.filter(|test| test.p_value < SIGNIFICANCE).count() > 0);
