@@ -1,5 +1,9 @@
 //! Effects into the text of a spec: an edit at a place, so that comments and layout of the author stay as they are.
 
+mod remove;
+
+pub use remove::remove;
+
 use crate::ast::{DeclaredEffect, Effects, Robot};
 use crate::diagnostic::Diagnostics;
 use crate::{load, parse};

@@ -73,7 +73,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
         } = Units::of(joints[joint].kind);
         let name = &joints[joint].name;
         let said = format!(
-            "effects with memory add energy to joint `{name}`: a cycle of {way:.2e} {length} at {:.3} {per} and as far at {speed:.3} {per} \
+            "effects with memory add energy to joint `{name}`: a cycle of {way:.2e} {length} at {:.3} {per} and back at {speed:.3} {per} \
              gains {gain:.2e} J",
             speed / SLOWER as f64
         );

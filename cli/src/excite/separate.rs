@@ -54,12 +54,18 @@ pub(super) fn rivals(
 
 /// Whether each parameter of two effects has a column of its own beside those of a spec's arm, so that a motion can be asked for: an effect
 /// may be a part of the other, or of the arm.
-pub(crate) fn have_own_columns(source: &str, text: &str, first: &str, second: &str) -> bool {
-    let rivals = rivals_of(source, text, first, second);
-    rivals.is_ok_and(|(compiled, Expected(both))| {
-        let mut linear = both.iter().flat_map(|one| &one.linear);
-        linear.all(|(name, _)| compiled.base.names.contains(name))
-    })
+///
+/// # Errors
+/// Those of the spec with both of them.
+pub(crate) fn have_own_columns(
+    source: &str,
+    text: &str,
+    first: &str,
+    second: &str,
+) -> Result<bool, Error> {
+    let (compiled, Expected(both)) = rivals_of(source, text, first, second)?;
+    let mut linear = both.iter().flat_map(|one| &one.linear);
+    Ok(linear.all(|(name, _)| compiled.base.names.contains(name)))
 }
 
 fn rivals_of(
@@ -335,7 +341,9 @@ mod tests {
             joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
             effects { viscous_friction on all; }
         }";
-        let told = |first: &str, second: &str| have_own_columns("a.robot", text, first, second);
+        let told = |first: &str, second: &str| {
+            have_own_columns("a.robot", text, first, second).expect("a spec with both")
+        };
         assert!(told(
             "coulomb_friction on turn",
             "stribeck(vs = 0.1) on turn"

@@ -52,6 +52,8 @@ enum Without {
     Motion,
     /// One of them has a parameter without a column of its own.
     Column,
+    /// The spec does not compile with both.
+    Spec,
 }
 
 impl Without {
@@ -59,6 +61,7 @@ impl Without {
         match self {
             Self::Motion => "one of them follows more than the motion, or changes the arm itself",
             Self::Column => "a parameter of one of them is part of the other, or of the arm",
+            Self::Spec => "the spec does not compile with both of them",
         }
     }
 }
@@ -72,17 +75,24 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     let by_hope = apart.chain(alternatives.iter().filter(is_same));
     let mut pairs: Vec<(&Alternative, [String; 2])> = Vec::new();
     let mut others = String::new();
+    let mut more = 0;
     for rival in by_hope {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
         let without = match rivals(closed, finding, place, rival) {
             None => Without::Motion,
-            Some(_) if pairs.len() == MOST_MOTIONS => continue,
-            Some(both) if have_own_columns(spec, text, &both[0], &both[1]) => {
-                pairs.push((rival, both));
+            Some(_) if pairs.len() == MOST_MOTIONS => {
+                more += 1;
                 continue;
             }
-            Some(_) => Without::Column,
+            Some(both) => match have_own_columns(spec, text, &both[0], &both[1]) {
+                Ok(true) => {
+                    pairs.push((rival, both));
+                    continue;
+                }
+                Ok(false) => Without::Column,
+                Err(_) => Without::Spec,
+            },
         };
         let other = on_joints(closed, &rival.kind, &rival.joints);
         others.push_str(&no_motion(&finding.kind, &other, without));
@@ -102,6 +112,9 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
         is_same: is_same(rival),
         both,
     });
+    if more > 0 {
+        others.push_str(&not_tried(more));
+    }
     let is_one = alternatives.len() == 1;
     commands(spec, &first, is_one, &pairs.collect::<Vec<_>>()) + &others
 }
@@ -112,6 +125,19 @@ fn no_motion(named: &str, rival: &str, without: Without) -> String {
         "  no motion is designed that separates {named} from {rival}: {}; declare each in turn and compare their errors on a log of another \
          motion (`robot-model identify --validate`)\n",
         without.words()
+    )
+}
+
+/// The line of so many alternatives beyond those whose motions are told.
+fn not_tried(more: usize) -> String {
+    let (them, is) = if more == 1 {
+        ("alternative", "is")
+    } else {
+        ("alternatives", "are")
+    };
+    format!(
+        "  {more} more {them} {is} not tried for a motion of their own: put the name in the place of that behind `--from`, or trace the log of a \
+         motion above beside these logs first\n"
     )
 }
 

@@ -186,10 +186,14 @@ impl<'a> Trace<'a> {
 
         progress(&Stage::whole("forming candidate columns"));
         let candidates = self.judgeable(logs);
-        let named = self.since.as_ref().map_or(0, |earlier| earlier.named);
-        let most = MOST_EFFECTS.saturating_sub(named);
-        let grown = search.grow(state, &candidates, most, progress)?;
+        let grown = search.grow(state, &candidates, self.most(), progress)?;
         self.concluded(&mut search, grown, before)
+    }
+
+    /// How many effects may still be added: those that an earlier trace named count.
+    fn most(&self) -> usize {
+        let named = self.since.as_ref().map_or(0, |earlier| earlier.named);
+        MOST_EFFECTS.saturating_sub(named)
     }
 
     /// The verdict on a model that was grown.
@@ -217,7 +221,7 @@ impl<'a> Trace<'a> {
             End::NothingPasses => Vec::new(),
         };
         state = search.prune(state)?;
-        state = search.with_small(state, &grids)?;
+        state = search.with_small(state, &grids, self.most())?;
         let after = search.structure(&state).to_vec();
         let earlier = self.since.as_ref();
         let before = earlier.map_or(before, |earlier| earlier.before.clone());

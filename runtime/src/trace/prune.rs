@@ -4,7 +4,7 @@ use crate::identify::IdentifyError;
 
 use super::gate::MATERIAL_PERCENT;
 use super::grid::Grid;
-use super::search::{MOST_EFFECTS, Search, State};
+use super::search::{Search, State};
 use super::structure::Structure;
 use super::trial::Trial;
 
@@ -23,15 +23,16 @@ impl Search<'_> {
         })
     }
 
-    /// Takes off what is too small to be named: it may be structure, and is none that is unknown.
+    /// Takes off what is too small to be named: it may be structure, and is none that is unknown; `most` effects are in the model then.
     pub(super) fn with_small<'a>(
         &mut self,
         mut state: State<'a>,
         grids: &[Grid<'a>],
+        most: usize,
     ) -> Result<State<'a>, IdentifyError> {
         let is_left = |search: &Self, state: &State| {
             let structure = search.structure(state).iter().any(Structure::is_material);
-            structure && state.accepted.len() < MOST_EFFECTS
+            structure && state.accepted.len() < most
         };
         while is_left(self, &state) {
             let Some(small) = self.small(&state, grids) else {
