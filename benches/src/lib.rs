@@ -11,7 +11,7 @@
 //! its values at some states, and the nanoseconds of one pass over all blocks. So ours and the peers' are timed in the same
 //! way and in turns, and none is in the address space of another.
 //!
-//! Beside that, [`baselines`] are what the tracer's study compares it with.
+//! Beside that, [`baselines`] are what the tracer's study compares it with, and [`interval`] what its shares say.
 
 pub mod arm;
 pub mod baselines;
@@ -19,6 +19,7 @@ pub mod build;
 pub mod docs;
 pub mod generation;
 mod given;
+pub mod interval;
 pub mod machine;
 pub mod options;
 pub mod ours;

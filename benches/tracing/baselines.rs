@@ -16,8 +16,8 @@ use crate::experiment::said;
 const MATERIAL: f64 = 0.05;
 const MOST_EFFECTS: usize = 6;
 
-/// Length of a block of a motion that does not repeat, s.
-const BLOCK_S: f64 = 1.0;
+/// Length of a block of a motion that does not repeat, s: ten of them in the log that is fitted.
+const BLOCK_S: f64 = 2.0;
 
 /// Of more effects than this the rest is not looked at.
 const MOST_TRIED: usize = 20;
@@ -54,8 +54,8 @@ pub fn answers(closed: &Loop) -> Result<Vec<Answer>, String> {
     let trials = fit.trials(&candidates);
     let rows = fit.stack.samples() * fit.stack.dof();
     let lots = Given::new(&fit, &trials, &by_lot(rows));
+    let forming = start.elapsed().as_secs_f64();
     let blocks = Given::new(&fit, &trials, &blocks(&fit, &closed.traced));
-    let forming = start.elapsed().as_secs_f64() / 2.0;
     ALL.iter()
         .map(|baseline| {
             let start = Instant::now();

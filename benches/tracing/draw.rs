@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::arms::ARMS;
-use crate::catalogue::{ALL, Injection, Place};
+use crate::catalogue::{Injection, Place};
 use crate::experiment::Case;
 
 /// The effect that comes back in every period, and so needs periods.
@@ -23,10 +23,16 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// Of this experiment: a stream of its own for every arm and place in the catalogue.
+    /// Of this experiment: a stream of its own for every arm and place in the catalogue, and for every size of an arm that lacks nothing, which is
+    /// another arm. What is added at the end of the catalogue changes no other.
     pub fn new(case: &Case) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(case.seed);
-        random.set_stream((ALL.len() * place(ARMS, case.arm) + case.number()) as u64);
+        let size = match case.injection.place {
+            Place::Nowhere => case.share.to_bits(),
+            _ => 0,
+        };
+        let own = (place(ARMS, case.arm) as u64) << 32 | (case.number() as u64) << 16;
+        random.set_stream(own ^ size);
         // Each is drawn whether it is needed or not: what one effect needs changes no other draw.
         let turn = random.random_range(0..u32::MAX) as usize;
         let repeats = random.random_bool(0.5) || case.injection.effect() == OF_PERIODS;

@@ -20,11 +20,12 @@ const RIGHT: RGBColor = RGBColor(0, 90, 160);
 const NEAR: RGBColor = RGBColor(120, 175, 220);
 const MATTERS: RGBColor = RGBColor(170, 170, 170);
 const GRID: RGBColor = RGBColor(225, 225, 225);
-const METHODS: [RGBColor; 4] = [
+const METHODS: [RGBColor; 5] = [
     RIGHT,
     RGBColor(190, 60, 40),
     RGBColor(220, 150, 30),
     RGBColor(90, 140, 70),
+    RGBColor(130, 80, 160),
 ];
 
 /// A string takes whatever is drawn on it.
@@ -94,6 +95,7 @@ pub fn comparison(rows: &[Row]) -> Option<String> {
     if methods.is_empty() {
         return None;
     }
+    assert_eq!(methods.len(), METHODS.len(), "a color for every method");
     let sizes = sizes(rows);
     let over_sizes = |title: &str, marks: &[Mark]| {
         let curves = methods.iter().zip(METHODS).map(|(method, color)| {

@@ -55,6 +55,8 @@ pub struct Row {
     /// What was said.
     pub outcome: String,
     pub said: Vec<String>,
+    /// Whether the effect is said to do as well as one that is named.
+    pub is_alternative: bool,
     /// Largest share of the raw error's power that still follows the motion on a joint of what was said.
     #[serde(default)]
     pub left_share: f64,
@@ -85,9 +87,14 @@ pub struct Answer {
 type Said = [(String, Vec<usize>)];
 
 impl Row {
-    /// What it shares with the same effect in other sizes: joint, motion and noise.
-    pub fn draw(&self) -> (&str, usize, u64) {
-        (&self.arm, self.number, self.seed)
+    /// What it shares with the same effect in other sizes: joint, motion and noise. Arms that lack nothing share them with none.
+    pub fn draw(&self) -> (&str, usize, u64, u64) {
+        let size = if self.kind == "nothing" {
+            self.share.to_bits()
+        } else {
+            0
+        };
+        (&self.arm, self.number, self.seed, size)
     }
 
     /// Whether it is of this size.
@@ -163,6 +170,11 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         Vec::new()
     };
     let faults = &said[..closed.faults.len()];
+    let mut rivals = closed.verdict.alternatives.iter();
+    let is_it = |kind: &str, joints: &[usize]| {
+        let rival = [(kind.to_owned(), joints.to_vec())];
+        judged(Outcome::Explained, &rival) == Mark::Exact
+    };
     Ok(Row {
         arm: case.arm.name.to_owned(),
         kind: case.injection.kind.to_owned(),
@@ -176,6 +188,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         mark: judged(closed.outcome(), &said),
         outcome: closed.outcome().name().to_owned(),
         said: said.iter().map(label).collect(),
+        is_alternative: rivals.any(|rival| is_it(&rival.kind, &rival.joints)),
         left_share: left_share(&closed),
         after_over_truth: best.map(|best| {
             let ratios = after
@@ -278,6 +291,11 @@ fn true_errors(
         .rmse)
 }
 
+/// Whether these are the same joints in any order.
+fn is_same(on: &[usize], joints: &[usize]) -> bool {
+    on.len() == joints.len() && on.iter().all(|joint| joints.contains(joint))
+}
+
 fn mark(
     injection: &Injection,
     joints: &[usize],
@@ -294,9 +312,7 @@ fn mark(
         let is_last =
             kind != "link-inertial-error" || injection.kind != "payload" || on == &[dof - 1];
         let anywhere = WITHOUT_JOINT.contains(&injection.kind);
-        is_kind
-            && is_last
-            && (anywhere || on.is_empty() || on.iter().any(|joint| joints.contains(joint)))
+        is_kind && is_last && (anywhere || on.is_empty() || is_same(on, joints))
     };
     match (outcome, said) {
         (Outcome::NothingMissing, _) if !injection.is_named() && injection.law.is_none() => {

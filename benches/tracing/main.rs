@@ -1,8 +1,8 @@
 //! `cargo bench --bench tracing`: every effect of the library is put into simulated arms, in three sizes, and traced.
 //!
 //! An arm moves in closed loop, with an encoder's steps and colored noise; its spec does not declare what is in it. The share of right
-//! names, of silence and of wrong names is told for every effect and size, beside that of baselines on the same logs. Seeds from 100 on are looked at while the tracer is built, those
-//! below are for figures alone.
+//! names, of silence and of wrong names is told for every effect and size, beside that of baselines on the same logs. Seeds from 100 on are
+//! looked at while the tracer is built, those below are for figures alone.
 
 mod arms;
 mod baselines;
@@ -12,7 +12,6 @@ mod comparison;
 mod draw;
 mod experiment;
 mod figures;
-mod interval;
 mod judge;
 mod keep;
 mod motion;
@@ -52,7 +51,7 @@ struct Options {
     /// Experiments at a time.
     #[arg(long, default_value_t = 2)]
     jobs: usize,
-    /// Ask LASSO, sequential thresholding and forward selection about the same logs.
+    /// Ask LASSO, sequential thresholding and forward selection, by F tests and by blocks, about the same logs.
     #[arg(long, value_name = "BOOL", default_value_t = true, action = ArgAction::Set)]
     baselines: bool,
     /// Run nothing, but take the rows that earlier runs wrote with `--json`.
@@ -84,19 +83,12 @@ impl Options {
         let mut cases = Vec::new();
         for arm in ARMS.iter().filter(|arm| wanted(&self.arms, arm.name)) {
             for injection in ALL.iter().filter(|one| wanted(&self.kinds, one.kind)) {
-                for (number, percent) in self.sizes.iter().enumerate() {
-                    // An arm with nothing in it has motions and noise of its own in place of sizes.
-                    let astray = if injection.is_named() || injection.law.is_some() {
-                        0
-                    } else {
-                        1000 * number as u64
-                    };
-                    let seeds = self.seeds.iter();
-                    cases.extend(seeds.map(|seed| Case {
+                for percent in &self.sizes {
+                    cases.extend(self.seeds.iter().map(|seed| Case {
                         arm,
                         injection,
                         share: percent / 100.0,
-                        seed: seed + astray,
+                        seed: *seed,
                     }));
                 }
             }

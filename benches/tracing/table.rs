@@ -1,18 +1,19 @@
 //! Rows as a table, and what they come to.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::arms::ARMS;
-use crate::interval::wilson;
+use robot_model_benches::interval::{wilson, worth};
+
 use crate::judge::{Mark, Row};
 
 /// Counts of a set of rows.
 struct Counts {
     all: usize,
     of: Vec<(Mark, usize)>,
-    /// Experiments that share nothing.
-    draws: usize,
+    /// As many experiments that share nothing are worth as much.
+    draws: f64,
 }
 
 impl Counts {
@@ -27,10 +28,10 @@ impl Counts {
         ];
         let mut of: Vec<(Mark, usize)> = marks.map(|mark| (mark, 0)).to_vec();
         let mut all = 0;
-        let mut draws = BTreeSet::new();
+        let mut draws = BTreeMap::<_, usize>::new();
         for row in rows {
             all += 1;
-            draws.insert(row.draw());
+            *draws.entry(row.draw()).or_default() += 1;
             for (mark, count) in &mut of {
                 *count += usize::from(*mark == row.mark);
             }
@@ -38,7 +39,7 @@ impl Counts {
         Self {
             all,
             of,
-            draws: draws.len(),
+            draws: worth(draws.into_values()),
         }
     }
 
@@ -85,6 +86,11 @@ pub fn sizes(rows: &[Row]) -> Vec<f64> {
 
 /// The table of kinds and sizes, and what it comes to.
 pub fn table(rows: &[Row]) -> String {
+    each(rows) + &summary(rows)
+}
+
+/// A line for every kind and size.
+fn each(rows: &[Row]) -> String {
     let mut text = String::from(
         "| in the arm | size | tried | matters | exact | near | small | abstained | missed | wrong |\n|---|---|---|---|---|---|---|---|---|---|\n",
     );
@@ -112,6 +118,12 @@ pub fn table(rows: &[Row]) -> String {
             text.push('\n');
         }
     }
+    text
+}
+
+/// Shares with their intervals.
+fn summary(rows: &[Row]) -> String {
+    let (mut text, sizes) = (String::new(), sizes(rows));
     let of = |wanted: &dyn Fn(&&Row) -> bool| Counts::new(rows.iter().filter(wanted));
     let mut tell = |what: &str, wanted: &dyn Fn(&&Row) -> bool, shares: &[(&str, &[Mark])]| {
         let counts = of(wanted);
@@ -145,7 +157,7 @@ pub fn table(rows: &[Row]) -> String {
             );
         }
     }
-    // All but exact: a clean arm that is unexplained is an alarm, too.
+    // A clean arm that is unexplained is one, too.
     let alarms: [(&str, &[Mark]); 1] = [(
         "false alarms",
         &[Mark::Abstained, Mark::Missed, Mark::Wrong],
@@ -166,6 +178,12 @@ pub fn table(rows: &[Row]) -> String {
         "laws that no library has",
         &|row| row.kind == "unknown",
         &unknown,
+    );
+    let is_open = |row: &&Row| row.mark == Mark::Wrong && row.is_alternative;
+    let open = rows.iter().filter(is_open).count();
+    let _ = writeln!(
+        text,
+        "wrong names with the right one among the alternatives: {open}"
     );
     let mut ratios: Vec<f64> = rows
         .iter()

@@ -5,8 +5,9 @@
 //! model, columns, target -rows-> Rows -lasso, thresholding, selection, blocked-> Choices
 //! ```
 //!
-//! The first three count rows as independent, as they are used, the last has folds of whole blocks; the model's columns are always in. Inside [`Rows`] columns are without what the
-//! model says of them and have a mean square of one, so that penalties and thresholds are alike for all.
+//! The first three count rows as independent, as they are used, the last has folds of whole blocks; the model's columns are always in.
+//! Inside [`Rows`] columns are without what the model says of them and have a mean square of one, so that penalties and thresholds are alike
+//! for all.
 
 mod blocked;
 mod lasso;

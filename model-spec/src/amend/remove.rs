@@ -73,10 +73,30 @@ fn cut(
         }
         _ => {
             let start = declaration.name.span().byte_range().start;
-            let end = text[start..].find(';').map_or(start, |at| start + at + 1);
-            (start..end, String::new())
+            (start..end_of_statement(text, start), String::new())
         }
     }
+}
+
+/// Behind the semicolon that ends what begins at a place, and is in no comment.
+fn end_of_statement(text: &str, start: usize) -> usize {
+    let mut at = start;
+    while let Some(found) = text[at..].find([';', '/']) {
+        let rest = &text[at + found..];
+        let comment = ["//", "/*"]
+            .into_iter()
+            .position(|open| rest.starts_with(open));
+        let length = match comment {
+            Some(kind) => {
+                let close = ["\n", "*/"][kind];
+                rest.find(close).map_or(rest.len(), |end| end + close.len())
+            }
+            None if rest.starts_with(';') => return at + found + 1,
+            None => 1,
+        };
+        at += found + length;
+    }
+    text.len()
 }
 
 #[cfg(test)]
@@ -96,7 +116,8 @@ mod tests {
         viscous_friction on all;
         stribeck(vs = 0.2) on a, c; // Measured.
         gear_coupling on (b, c), (a, b);
-        base_tilt;
+        base_tilt // It hangs; nearly.
+            /* Upside down; see above. */ (first = 0.1, second = 3 / 30);
     }
 }
 ";
@@ -120,6 +141,9 @@ mod tests {
             let without = remove("r.robot", TEXT, effect).expect("a spec without it");
             let mut expected = lines(TEXT);
             instead.clone_into(&mut expected[line]);
+            if line == 12 {
+                expected.remove(13);
+            }
             assert_eq!(lines(&without), expected);
             let left = load("r.robot", &without).expect("a spec").effects;
             let mut others = model.effects.clone();

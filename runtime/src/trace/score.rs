@@ -6,10 +6,8 @@ use crate::columns::{Candidate, Entry};
 use crate::identify::{Stack, correlation_time};
 use crate::signal::resample::whole_steps;
 
-use statrs::distribution::{ContinuousCDF, FisherSnedecor};
-
 use super::gram::Gram;
-use super::jackknife;
+use super::jackknife::{self, Part};
 use super::normal::Normal;
 use super::projected::Projected;
 use super::small::{add, directions, dot, solve_symmetric};
@@ -27,7 +25,7 @@ const BLOCKS_OF_A_PARAMETER: usize = 4;
 
 /// A candidate's score.
 pub(super) struct Score {
-    /// `F` statistic: `gain' S V^-1 S gain`, per parameter, scaled for the number of blocks.
+    /// `F` statistic: `gain' S V^-1 S gain`, per direction, scaled for the number of blocks.
     pub(super) f: f64,
     /// Probability of it or more where the candidate is not there.
     pub(super) p_value: f64,
@@ -99,8 +97,7 @@ impl<'a> Present<'a> {
     }
 
     /// Wald test of the candidate: `gain' S V^-1 S gain`, where `V` is the jackknife's over whole blocks of time ([`jackknife`]), so that
-    /// samples of one block do not count as independent, and a gain that hangs on one block is worth nothing. With `B` blocks and `p`
-    /// directions in which the columns are new, `(B - p) / (p B)` times it is compared with `F(p, B - p)`.
+    /// samples of one block do not count as independent, and a gain that hangs on one block is worth nothing.
     ///
     /// Blocks are as long as the products of columns and what is left are correlated: a slow wander of the zero is next to nothing of a
     /// column that changes its sign with the motion. Where the scores of neighboring blocks are alike all the same, as they are of a
@@ -138,32 +135,15 @@ impl<'a> Present<'a> {
         let moved: Vec<f64> = moved.map(|row| dot(row, &projected.gain)).collect();
         let moved = along(&moved);
         let both = |matrix: &[Vec<f64>]| jackknife::along(&directions, matrix);
-        let whole = both(&projected.information);
-        let left_out = blocks.iter().zip(&scores).map(|(block, score)| {
-            let own = both(&self.information(&columns, block));
-            jackknife::score(&whole, &own, &along(score))
+        let parts = blocks.iter().zip(&scores).map(|(block, score)| Part {
+            information: both(&self.information(&columns, block)),
+            score: along(score),
         });
-        let Some(left_out) = left_out.collect::<Option<Vec<_>>>() else {
-            return Score {
-                f: 0.0,
-                p_value: 1.0,
-                rest,
-            };
-        };
-        let mut variance = jackknife::variance(&left_out);
         // What a zero that walks makes of them.
-        let walked = self.walked(&columns, &rest);
-        let half: Vec<Vec<f64>> = walked.iter().map(|row| along(row)).collect();
-        for (line, direction) in variance.iter_mut().zip(&directions) {
-            for (row, weight) in half.iter().zip(direction) {
-                add(line, *weight, row);
-            }
-        }
-        let wald = dot(&moved, &solve_symmetric(&variance, &moved));
-        let (parameters, blocks) = (moved.len() as f64, blocks.len() as f64);
-        let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
-        let p_value = FisherSnedecor::new(parameters, blocks - parameters)
-            .map_or(1.0, |distribution| distribution.sf(f));
+        let walked = both(&self.walked(&columns, &rest));
+        let parts: Vec<Part> = parts.collect();
+        let test = jackknife::test(&both(&projected.information), &parts, &moved, &walked);
+        let (f, p_value) = test.unwrap_or((0.0, 1.0));
         Score { f, p_value, rest }
     }
 

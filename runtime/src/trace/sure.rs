@@ -5,6 +5,7 @@ use crate::columns::{Candidate, Unknown};
 use super::gate::Judged;
 use super::rows::Rows;
 use super::search::{Accepted, Search, State};
+use super::verdict::Evidence;
 
 /// Deviations that a parameter is told by.
 const TOLD: f64 = 2.0;
@@ -54,17 +55,8 @@ impl Search<'_> {
     /// be traded for each other all along, the law fits as anything with so many parameters does, unless it is most of what is missing.
     pub(super) fn is_told(&self, state: &State, judged: &Judged) -> bool {
         let trial = &judged.trial;
-        let evidence = &judged.evidence;
-        let falls = evidence.held_out_percent.iter().zip(&evidence.raw_percent);
-        let beyond = |least: (f64, f64)| {
-            move |(held_out, raw): (&f64, &f64)| *held_out > least.0 && *raw > least.1
-        };
-        // One column that takes so much off fits next to nothing that is another law's, whatever it trades with its one shape: of
-        // `fv exp(-beta T)` beside viscous friction a small `beta` and a large `fv` say the same, and how friction falls with the temperature is
-        // told.
         let is_simple = trial.count() == 1 && trial.shapes.len() < 2;
-        let takes = |least| falls.clone().any(beyond(least));
-        if judged.changed.is_none() && (takes(MOST_PERCENT) || is_simple && takes(MUCH_PERCENT)) {
+        if judged.changed.is_none() && takes_most(&judged.evidence, is_simple) {
             return true;
         }
         let is_beyond = |times: f64| {
@@ -91,6 +83,18 @@ impl Search<'_> {
     }
 }
 
+/// Whether a law takes so much off the errors of one of the joints that it is there, whatever its parameters trade.
+///
+/// One column that takes much off fits next to nothing that is another law's, whatever it trades with its one shape: of `fv exp(-beta T)` beside
+/// viscous friction a small `beta` and a large `fv` say the same, and how friction falls with the temperature is told.
+fn takes_most(evidence: &Evidence, is_simple: bool) -> bool {
+    let pairs = || evidence.held_out_percent.iter().zip(&evidence.raw_percent);
+    let beyond = |(least_held_out, least_raw): (f64, f64)| {
+        pairs().any(|(held_out, raw)| *held_out > least_held_out && *raw > least_raw)
+    };
+    beyond(MOST_PERCENT) || is_simple && beyond(MUCH_PERCENT)
+}
+
 fn unknowns(candidate: &dyn Candidate) -> Vec<Unknown> {
     let shapes = candidate.shapes().iter();
     let unknowns = shapes.map(|shape| Unknown {
@@ -98,4 +102,26 @@ fn unknowns(candidate: &dyn Candidate) -> Vec<Unknown> {
         nonnegative: false,
     });
     unknowns.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_leaves_next_to_nothing_is_there() {
+        let on = |held_out: [f64; 2], raw: [f64; 2]| Evidence {
+            score: 100.0,
+            p_value: 0.0,
+            held_out_percent: held_out.to_vec(),
+            raw_percent: raw.to_vec(),
+            folds: (5, 5),
+        };
+        // A spring of 3 % of a torque, and one in the place of a motor's limit.
+        let (spring, limit) = (on([0.2, 80.0], [0.1, 36.0]), on([0.0, 54.0], [0.0, 50.0]));
+        assert!(takes_most(&spring, false) && !takes_most(&limit, false));
+        assert!(takes_most(&limit, true));
+        // Both of one joint.
+        assert!(!takes_most(&on([80.0, 0.0], [0.0, 36.0]), true));
+    }
 }

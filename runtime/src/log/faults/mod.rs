@@ -2,8 +2,9 @@
 //!
 //! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts, bursts and holds are replaced by
 //! straight lines; around longer ones, and where a position jumps and stays, the log has a [hole](Log::holes), of which no row of
-//! identification knows. What such a jump adds to all that follows is taken out, as no arm jumps, and so are whole turns. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is
-//! told, and [where](Log::clipped). The thresholds are wide, so that sound logs have hardly any.
+//! identification knows. What such a jump adds to all that follows is taken out, as no arm jumps, and so are whole turns. Velocities are
+//! compared with the slopes of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The
+//! thresholds are wide, so that sound logs have hardly any.
 
 mod bursts;
 mod clipped;
@@ -131,23 +132,23 @@ impl Log {
             return Vec::new();
         }
         let channel = || format!("tau{}", joint + 1);
-        let faulty = |mended: &Self, found| {
-            let found = pushes::without(found, &mended.q);
-            reversals::without(found, &mended.q[joint])
+        let faulty = |log: &Self, tau: &[f64], found| {
+            let found = pushes::without(found, &log.q);
+            reversals::without(found, tau, &log.q[joint], log.rate_hz())
         };
         let found = dropouts::of_torque(tau, &self.q[joint], self.rate_hz());
-        let at = self.cut_out(tau, faulty(self, found));
+        let at = self.cut_out(tau, pushes::without(found, &self.q));
         let dropouts = at.map(|at| Fault::Dropouts {
             channel: channel(),
             at,
         });
-        let found = bursts::find(tau, self.rate_hz());
-        let at = self.cut_out(tau, faulty(self, found));
+        let found = faulty(self, tau, bursts::find(tau, self.rate_hz()));
+        let at = self.cut_out(tau, found);
         let bursts = at.map(|at| Fault::Bursts {
             channel: channel(),
             at,
         });
-        let found = faulty(self, spikes::find(tau));
+        let found = faulty(self, tau, spikes::find(tau));
         let spikes = self.replace_spikes(tau, found, channel());
         let at = self.cut_out(tau, held::of_torque(tau, &self.q[joint]));
         let held = at.map(|at| Fault::Held {
