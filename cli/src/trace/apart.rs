@@ -20,6 +20,17 @@ const MOST_MOTIONS: usize = 3;
 
 const PUT: &str = "a string takes all";
 
+/// How many effects do as well as one that is named: those that are not worse in every fold.
+pub(super) fn undistinguished(alternatives: &[Alternative]) -> usize {
+    let worse = alternatives.iter().map(|rival| rival.worse_folds);
+    worse.filter(|folds| !is_worse(*folds)).count()
+}
+
+/// Whether an effect is worse in all of so many folds.
+fn is_worse(folds: Option<(usize, usize)>) -> bool {
+    folds.is_some_and(|(worse, of)| worse == of)
+}
+
 /// One line an alternative, and for the spec at a path, of a text, the commands that design motions for those doubts that have one.
 pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
     let mut out = String::new();
@@ -41,7 +52,7 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
 /// How often it is worse, where the folds are the same.
 fn in_folds(worse: Option<(usize, usize)>) -> String {
     worse.map_or_else(String::new, |(worse, of)| {
-        format!("; in the band of the fit, all joints together, larger in {worse} of {of} folds")
+        format!("; in the band of the fit, all joints together, it has the larger error in {worse} of {of} folds")
     })
 }
 
@@ -79,6 +90,12 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     for rival in by_hope {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
+        let other = on_joints(closed, &rival.kind, &rival.joints);
+        let words = parted_by(closed, &finding.effect, &rival.effect);
+        if let (true, Some(words)) = (is_same(&rival), words) {
+            others.push_str(&by_no_motion(&finding.kind, &other, &words));
+            continue;
+        }
         let without = match rivals(closed, finding, place, rival) {
             None => Without::Motion,
             Some(_) if pairs.len() == MOST_MOTIONS => {
@@ -94,7 +111,6 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
                 Err(_) => Without::Spec,
             },
         };
-        let other = on_joints(closed, &rival.kind, &rival.joints);
         others.push_str(&no_motion(&finding.kind, &other, without));
     }
     let joints = &closed.before.arm.compiled().model.joints;
@@ -126,6 +142,26 @@ fn no_motion(named: &str, rival: &str, without: Without) -> String {
          motion (`robot-model identify --validate`)\n",
         without.words()
     )
+}
+
+/// The line of an alternative that is the same along the logs, and that no motion tells apart, as the effects' own comments say.
+fn by_no_motion(named: &str, rival: &str, words: &str) -> String {
+    format!(
+        "  along these logs {named} and {rival} are identical; they are distinguished by {words}\n"
+    )
+}
+
+/// What distinguishes two effects, where that is no motion.
+fn parted_by(closed: &Loop, one: &str, other: &str) -> Option<String> {
+    let definitions = &closed.before.arm.compiled().model.definitions;
+    let of = |name: &str, other: &str| -> Option<String> {
+        let definition = definitions.iter().find(|one| one.name == name)?;
+        let confusions = definition.confusions().ok()?.into_iter();
+        let mut own = confusions.filter(|one| one.effects.iter().any(|name| name == other));
+        let without = own.find(|one| !one.is_parted_by_motion())?;
+        Some(without.parted_by.trim_end_matches('.').to_owned())
+    };
+    of(one, other).or_else(|| of(other, one))
 }
 
 /// The line of so many alternatives beyond those whose motions are told.
@@ -252,7 +288,7 @@ fn joints(closed: &Loop, joints: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pair, Without, commands, no_motion};
+    use super::{Pair, Without, by_no_motion, commands, is_worse, no_motion, not_tried};
 
     #[test]
     fn each_alternative_has_the_command_of_a_motion() {
@@ -277,6 +313,27 @@ mod tests {
         );
         let one = commands("arm.robot", "", true, &[pair(0)]);
         assert!(one.contains("the motion that best separates them"), "{one}");
+    }
+
+    #[test]
+    fn alternatives_that_no_motion_tells_apart_are_told_with_what_does() {
+        assert_eq!(
+            by_no_motion(
+                "asymmetric-coulomb",
+                "torque-offset on elbow",
+                "no motion, but by samples at rest"
+            ),
+            "  along these logs asymmetric-coulomb and torque-offset on elbow are identical; they are distinguished by no motion, but by samples \
+             at rest\n"
+        );
+        assert!(not_tried(1).starts_with("  1 more alternative is not tried"));
+        assert!(not_tried(2).starts_with("  2 more alternatives are not tried"));
+    }
+
+    #[test]
+    fn what_is_worse_in_every_fold_is_distinguished() {
+        assert!(is_worse(Some((5, 5))));
+        assert!(!is_worse(Some((4, 5))) && !is_worse(None));
     }
 
     #[test]

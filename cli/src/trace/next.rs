@@ -103,13 +103,10 @@ impl TraceArguments {
     /// What is left follows the motion, so another motion tells more of it.
     fn another_motion(&self, model: &Model) -> Next {
         let mut joints = model.joints.iter();
-        let unbound = joints.find(|joint| {
-            let limits = &joint.limits;
-            limits.velocity.is_none() || limits.acceleration.is_none()
-        });
+        let unbound = joints.find(|joint| joint.limits.velocity.is_none());
         let first = unbound.map_or_else(String::new, |joint| {
             format!(
-                ", once limits of `{}` and its like are in the spec (`velocity = ..; acceleration = ..`)",
+                ", after adding limits of `{}` and the other joints to the spec (`velocity = ..`)",
                 joint.name
             )
         });

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use robot_model::columns::Arm;
 use robot_model::trace::{FloorFrom, Outcome};
+use robot_model_spec::model::{Joint, JointKind};
 
-use super::apart::apart;
+use super::apart::{apart, undistinguished};
 use super::doubt::{doubts, on_joints};
 use super::next::Next;
 use super::parameters::{found, parameters as of_all};
@@ -37,12 +38,12 @@ pub(super) fn page(
     );
     page.section("Verdict");
     verdict(&mut page, closed);
+    open_questions(&mut page, spec, text, closed);
     if let Some(next) = next {
         page.part("Next");
         page.text(&next.what);
         page.preformatted(&next.commands.join("\n"));
     }
-    open_questions(&mut page, spec, text, closed);
     page.section(if closed.changed.is_some() {
         "Errors before and after"
     } else {
@@ -80,7 +81,13 @@ fn verdict(page: &mut Page, closed: &Loop) {
         // Unexplained, or an outcome of which this page knows no more.
         _ => ("open", "Unexplained"),
     };
-    page.verdict(class, word, &sentence(outcome(closed)));
+    let others = undistinguished(&verdict.alternatives);
+    let word = if closed.outcome() == Outcome::Explained && others > 0 {
+        format!("{word} by one of {}", others + 1)
+    } else {
+        word.to_owned()
+    };
+    page.verdict(class, &word, &sentence(outcome(closed)));
     let faults = closed.faults.iter();
     let mut items: Vec<String> = faults
         .map(|fault| format!("{}: {}", fault.kind, fault.told))
@@ -117,10 +124,23 @@ fn verdict(page: &mut Page, closed: &Loop) {
 fn open_questions(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     let verdict = &closed.verdict;
     if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
-        page.part("Effects these logs cannot distinguish from it");
+        page.part("Effects that do nearly as well on these logs");
+        page.text("Of effects that do alike the simplest is named.");
         let open = apart(spec, text, closed);
-        let lines = open.lines().map(|line| line.trim().to_owned());
-        page.list(&lines.collect::<Vec<_>>());
+        let (mut lines, mut commands) = (Vec::new(), Vec::new());
+        for line in open.lines().map(str::trim) {
+            match line.split_once(": robot-model ") {
+                Some((what, command)) => {
+                    lines.push(format!("{what} (command {} below)", commands.len() + 1));
+                    commands.push(format!("robot-model {command}"));
+                }
+                None => lines.push(line.to_owned()),
+            }
+        }
+        page.list(&lines);
+        if !commands.is_empty() {
+            page.preformatted(&commands.join("\n"));
+        }
     }
     let left = structure_left(closed).into_iter();
     let left: Vec<String> = left.map(|said| said.join("; ")).collect();
@@ -135,15 +155,26 @@ fn errors(page: &mut Page, closed: &Loop) {
         Some(after) => vec![(" before", &closed.before), (" after", after)],
         None => vec![("", &closed.before)],
     };
-    let heads = ["fitted", "validation RMSE", "validation"].into_iter();
-    let heads = heads.flat_map(|of| stages.iter().map(move |(which, _)| format!("{of}{which}")));
+    let torque = torque_unit(closed);
+    let heads = [
+        "fitted, %".to_owned(),
+        "validation, %".to_owned(),
+        format!("validation RMSE, {torque}"),
+    ];
+    let stages_of = |of: &String| {
+        let (of, unit) = of.split_once(", ").expect("a name and a unit");
+        let whiches = stages.iter();
+        let heads = whiches.map(|(which, _)| format!("{of}{which}, {unit}"));
+        heads.collect::<Vec<_>>()
+    };
+    let heads = heads.iter().flat_map(stages_of);
     let heads: Vec<String> = std::iter::once("joint".to_owned())
         .chain(heads)
-        .chain(["floor".to_owned()])
+        .chain([format!("floor, {torque}")])
         .collect();
     let joints = closed.before.arm.joints().iter().enumerate();
     let rows = joints.map(|(j, name)| {
-        let percent = |values: &[f64]| format!("{:.2} %", values[j]);
+        let percent = |values: &[f64]| format!("{:.2}", values[j]);
         let or_none = |told: Option<String>| told.unwrap_or_else(|| "-".to_owned());
         let fitted = stages
             .iter()
@@ -162,7 +193,7 @@ fn errors(page: &mut Page, closed: &Loop) {
             significant(floor.rms, 3),
             significant(floor.std, 1)
         );
-        let cells = fitted.chain(rmse).chain(unseen);
+        let cells = fitted.chain(unseen).chain(rmse);
         std::iter::once(name.clone())
             .chain(cells)
             .chain([floor])
@@ -192,8 +223,8 @@ fn errors(page: &mut Page, closed: &Loop) {
         .collect();
     page.table(
         &format!(
-            "RMSE of raw samples in N m (prismatic joints: N), first and last second cut; relative errors in the filtered band. Noise floor \
-             of the fitted logs: {floor}. {}",
+            "RMSE of raw samples, first and last second cut; relative errors (%) in the filtered band. Noise floor, of raw samples of the \
+             fitted logs: {floor}. {}",
             of.join(" ")
         ),
         &heads.iter().map(String::as_str).collect::<Vec<_>>(),
@@ -201,6 +232,19 @@ fn errors(page: &mut Page, closed: &Loop) {
     );
     if closed.before.validation.is_none() {
         page.text("Give a validation log with --validate.");
+    }
+}
+
+/// The unit of torques, of all joints.
+fn torque_unit(closed: &Loop) -> &'static str {
+    let joints = &closed.before.arm.compiled().model.joints;
+    let slides = |joint: &Joint| joint.kind == JointKind::Prismatic;
+    if joints.iter().all(slides) {
+        "N"
+    } else if joints.iter().any(slides) {
+        "N m or N"
+    } else {
+        "N m"
     }
 }
 
@@ -292,12 +336,15 @@ fn tried(page: &mut Page, closed: &Loop) {
         });
         return;
     }
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|row| row.to_vec()).collect();
-    page.table(
-        "Effects that explained most in each round; score: Wald test over blocks of time; held-out and raw: largest fall of a joint's error \
-         on folds not fitted.",
-        &["round", "effect", "score", "held-out", "raw", "outcome"],
-        &rows,
+    let effect_first = |row: [String; 6]| {
+        let [round, effect, score, held_out, raw, outcome] = row;
+        vec![effect, round, score, held_out, raw, outcome]
+    };
+    page.cards(
+        "Effects that explained most in each round; score: Wald test over blocks of time; held-out and raw: largest \
+         fall of a joint's error on folds not fitted.",
+        &["effect", "round", "score", "held-out", "raw", "outcome"],
+        &rows.into_iter().map(effect_first).collect::<Vec<_>>(),
     );
 }
 

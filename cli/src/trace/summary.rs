@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
-use super::apart::apart;
+use super::apart::{apart, undistinguished};
 use super::doubt::{doubts, on_joints};
 use super::report::effect;
 use super::said::{errors_of, outcome, parameter};
@@ -20,7 +20,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let verdict = &closed.verdict;
     let mut out = match closed.outcome() {
         Outcome::NothingMissing => format!("nothing missing: {}\n", outcome(closed)),
-        Outcome::Explained => "explained:\n".to_owned(),
+        Outcome::Explained => format!("explained:{}\n", one_of(closed)),
         _ => format!("unexplained: {}\n", outcome(closed)),
     };
     for fault in &closed.faults {
@@ -82,6 +82,17 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     out.push('\n');
     out.push_str(&table(closed));
     out
+}
+
+/// Of how many effects the logs do not say which it is; nothing where they do.
+fn one_of(closed: &Loop) -> String {
+    match undistinguished(&closed.verdict.alternatives) {
+        0 => String::new(),
+        others => format!(
+            " these logs do not distinguish what is named from {others} other{}, listed after \"or\"; the simplest is named",
+            if others == 1 { "" } else { "s" }
+        ),
+    }
 }
 
 /// Errors per joint before and after the amendment: on the logs that were fitted, and on the validation log where there is

@@ -112,7 +112,7 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     let term = term.map(|(_, told)| told);
     let told: Vec<String> = level.into_iter().chain(term).chain(told).collect();
     let told = if told.is_empty() {
-        "not a function of position, velocity, acceleration, load or time".to_owned()
+        "not a function of position, velocity, acceleration, load or time alone, so perhaps of several of them or of the motion before".to_owned()
     } else {
         told.join(", ")
     };

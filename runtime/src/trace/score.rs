@@ -83,8 +83,18 @@ impl<'a> Present<'a> {
                 left[a][b] -= dot(&with_model[a], &corrections[b]);
             }
         }
-        if !(0..count).any(|c| left[c][c] > LEAST_NEW.powi(2) * own[c][c]) {
+        // What is left of a column that the model spans is rounding, which has no gain and is no direction.
+        let is_new = |c: usize| left[c][c] > LEAST_NEW.powi(2) * own[c][c];
+        let new: Vec<bool> = (0..count).map(is_new).collect();
+        if !new.contains(&true) {
             return None;
+        }
+        for (a, row) in left.iter_mut().enumerate() {
+            for (b, value) in row.iter_mut().enumerate() {
+                if !(new[a] && new[b]) {
+                    *value = 0.0;
+                }
+            }
         }
         let gain = solve_symmetric(&left, &with_residual);
         let drop = dot(&gain, &with_residual);
@@ -321,7 +331,54 @@ fn are_alike(scores: &[Vec<f64>], column: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::are_alike;
+    use super::super::series::{segment, white};
+    use super::*;
+    use crate::columns::Unknown;
+    use crate::identify::JointRows;
+
+    /// Two columns, one of them the model's: rounding is no direction, and has no gain.
+    #[test]
+    fn a_column_of_the_model_has_no_gain() {
+        const ROWS: u32 = 400;
+        let (of_model, new, noise) = (white(ROWS, 1), white(ROWS, 2), white(ROWS, 3));
+        let terms = of_model.iter().zip(&new).zip(&noise);
+        let target: Vec<f64> = terms
+            .map(|((m, z), e)| 2.0 * m + 0.5 * z + 0.1 * e)
+            .collect();
+        let stack = Stack {
+            unknowns: vec![Unknown {
+                name: "own".to_owned(),
+                nonnegative: false,
+            }],
+            joints: vec![JointRows {
+                tau: target.clone(),
+                target,
+                columns: vec![(0, of_model.clone())],
+            }],
+            segments: vec![segment(ROWS)],
+            ..Stack::default()
+        };
+        let gain = dot(&stack.joints[0].target, &of_model) / dot(&of_model, &of_model);
+        let (residuals, sigma) = (stack.residuals(&[gain]), [0.5]);
+        let present = Present::new(&stack, &Gram::new(&stack, &[]), &sigma, &residuals);
+        let spanned: Vec<f64> = of_model.iter().map(|value| 3.0 * value).collect();
+        let entry = |column: usize, values: &[f64]| Entry {
+            joint: 0,
+            column,
+            values: values.to_vec(),
+        };
+        let both = [entry(0, &spanned), entry(1, &new)];
+        let projected = present.project(&both, 2).expect("one is new");
+        assert!(projected.gain[0].abs() < 1e-12);
+        assert!(
+            (projected.gain[1] - 0.5).abs() < 0.03,
+            "{:?}",
+            projected.gain
+        );
+        let alone = present.project(&both[1..], 2).expect("it is new");
+        assert!((projected.drop - alone.drop).abs() < 1e-9 * alone.drop);
+        assert!(present.project(&both[..1], 1).is_none());
+    }
 
     /// A column that wanders, and one that changes its sign from block to block.
     #[test]
