@@ -68,7 +68,7 @@ fn a_law_whose_parameters_trade_is_told_where_it_is_most_of_the_error() {
     };
     let small = traded(|j, _, v| {
         if j == 0 {
-            0.03 * v[0] * v[0].abs()
+            0.015 * v[0] * v[0].abs()
         } else {
             0.0
         }
