@@ -216,7 +216,7 @@ mod tests {
             commands,
             ["robot-model excite cart.robot --out next.csv --figure next.svg"]
         );
-        assert!(what.contains("once limits of `rail`"), "{what}");
+        assert!(what.contains("after adding limits of `rail`"), "{what}");
 
         // How the logs are to be read comes before any command.
         closed.reading = Some("with positions in degrees ..".to_owned());
