@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use robot_model::log::Log;
+use robot_model_benches::ended;
 use robot_model_cli::close_the_loop::{Loop, Progress, close};
 use robot_model_tests::cases::{self, Case};
 use serde_json::json;
@@ -43,13 +44,7 @@ struct Answer {
 }
 
 fn main() -> ExitCode {
-    match run(&Options::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            let _ = writeln!(std::io::stderr(), "{error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(run(&Options::parse()))
 }
 
 fn run(options: &Options) -> Result<(), String> {

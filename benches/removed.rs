@@ -9,6 +9,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use robot_model::log::Log;
+use robot_model_benches::ended;
 use robot_model_cli::close_the_loop::{Loop, Progress, Stage, close};
 use robot_model_spec::amend::remove;
 use robot_model_spec::{Model, load};
@@ -34,13 +35,7 @@ struct Options {
 }
 
 fn main() -> ExitCode {
-    match run(&Options::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            let _ = writeln!(std::io::stderr(), "{error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(run(&Options::parse()))
 }
 
 fn run(options: &Options) -> Result<(), String> {

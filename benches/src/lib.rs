@@ -35,6 +35,9 @@ pub mod table;
 
 pub use run::run;
 
+use std::io::Write;
+use std::process::ExitCode;
+
 /// What the benchmark says where it cannot go on: what, where and the way out.
 #[derive(Debug)]
 pub struct Error(String);
@@ -53,6 +56,17 @@ impl std::fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+/// The end of a program: what went wrong, if anything did, to standard error.
+pub fn ended(done: Result<(), impl std::fmt::Display>) -> ExitCode {
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
 
 /// A file or folder that the system does not give, in words.
 pub(crate) fn failed(what: &str, path: &std::path::Path, reason: impl std::fmt::Display) -> Error {

@@ -26,6 +26,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::{ArgAction, Parser};
+use robot_model_benches::ended;
 
 use arms::ARMS;
 use catalogue::ALL;
@@ -104,13 +105,7 @@ fn main() -> ExitCode {
     } else {
         read(&options.from)
     };
-    match done.and_then(|rows| tell(&options, &rows)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            let _ = writeln!(std::io::stderr(), "{error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(done.and_then(|rows| tell(&options, &rows)))
 }
 
 /// Rows of earlier runs, one run after the other.

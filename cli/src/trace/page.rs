@@ -83,7 +83,8 @@ fn verdict(page: &mut Page, closed: &Loop) {
     };
     let others = undistinguished(&verdict.alternatives);
     let word = if closed.outcome() == Outcome::Explained && others > 0 {
-        format!("{word} by one of {}", others + 1)
+        let plural = if others == 1 { "" } else { "s" };
+        format!("{word}, with {others} alternative{plural}")
     } else {
         word.to_owned()
     };

@@ -149,13 +149,7 @@ mod tests {
         // Of an error of 2 without any law.
         let judged = laws.iter().map(|(law, error)| Judged {
             trial: Trial::first_order(law, Vec::new()),
-            evidence: Evidence {
-                score: 10.0,
-                p_value: 0.0,
-                held_out_percent: vec![50.0],
-                raw_percent: vec![100.0 - 50.0 * error],
-                folds: (5, 5),
-            },
+            evidence: Evidence::certain(&[50.0], &[100.0 - 50.0 * error]),
             merit: -error.ln(),
             raw_power: vec![error * error],
             fold_power: vec![error * error; 5],

@@ -121,13 +121,7 @@ mod tests {
 
     #[test]
     fn noise_of_a_joint_is_in_the_residual_of_no_other() {
-        let on = |held_out: [f64; 3], raw: [f64; 3]| Evidence {
-            score: 100.0,
-            p_value: 0.0,
-            held_out_percent: held_out.to_vec(),
-            raw_percent: raw.to_vec(),
-            folds: (5, 5),
-        };
+        let on = |held_out: [f64; 3], raw: [f64; 3]| Evidence::certain(&held_out, &raw);
         let of_its_own = on([0.0, 70.0, 1.0], [0.0, 40.0, 1.0]);
         let of_another = on([0.0, 70.0, 20.0], [0.0, 40.0, 6.0]);
         assert!(!helps_another_joint(&[1], &of_its_own));

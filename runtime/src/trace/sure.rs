@@ -13,9 +13,9 @@ const TOLD: f64 = 2.0;
 /// The same of a change of the arm, which moves all of the equations, and their noise with them.
 const TOLD_OF_CHANGE: f64 = 3.0;
 
-/// A law that leaves so little of a joint's error, held out, that a sixteenth of its power is left is there whatever its parameters trade: a
-/// spring's stiffness and lever, where the logs have a third of its turn. So much of the raw error, which has more noise, it takes off at least.
-/// Curves that fit what they are not leave more: of a motor at its limit a spring left a fifth of the power.
+/// A law that takes so much off a joint's error, held out, that a sixteenth of its power is left is there whatever its parameters trade, as are
+/// those of a spring with a lever; so much it takes off the raw error, which has more noise. What fits as any curve does leaves more: of a motor
+/// at its limit a spring left a fifth of the power.
 const MOST_PERCENT: (f64, f64) = (75.0, 20.0);
 
 /// A law of one column is told where it takes so much off a joint's errors, held out and raw.
@@ -110,13 +110,7 @@ mod tests {
 
     #[test]
     fn what_leaves_next_to_nothing_is_there() {
-        let on = |held_out: [f64; 2], raw: [f64; 2]| Evidence {
-            score: 100.0,
-            p_value: 0.0,
-            held_out_percent: held_out.to_vec(),
-            raw_percent: raw.to_vec(),
-            folds: (5, 5),
-        };
+        let on = |held_out: [f64; 2], raw: [f64; 2]| Evidence::certain(&held_out, &raw);
         // A spring of 3 % of a torque, and one in the place of a motor's limit.
         let (spring, limit) = (on([0.2, 80.0], [0.1, 36.0]), on([0.0, 54.0], [0.0, 50.0]));
         assert!(takes_most(&spring, false) && !takes_most(&limit, false));
