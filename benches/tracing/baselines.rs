@@ -6,7 +6,7 @@ use robot_model::columns::{Arm as _, Candidate, Columns as _, Entry};
 use robot_model::identify::{Identify, Method, Stack, torque_of};
 use robot_model::log::Log;
 use robot_model::signal::{Bands, Prepared, prepare};
-use robot_model_benches::baselines::{ALL, Choice, Column, FOLDS, Folds, Rows, by_lot};
+use robot_model_benches::baselines::{ALL, Choice, Column, FOLDS, Folds, Rows, by_blocks, by_lot};
 use robot_model_cli::close_the_loop::Loop;
 
 use crate::columns::{Fit, Trial, load};
@@ -109,11 +109,7 @@ fn blocks(fit: &Fit<'_>, logs: &[Log]) -> Vec<usize> {
     let logs = fit.stack.segments.iter().zip(logs);
     let of_log = logs.flat_map(|(segment, log)| {
         let cycle = log.period().unwrap_or(BLOCK_S * FOLDS as f64);
-        let fold = move |time: &f64| {
-            let place = (time / cycle).fract() * FOLDS as f64;
-            (1..FOLDS).filter(|k| *k as f64 <= place).count()
-        };
-        segment.time.iter().map(fold)
+        by_blocks(&segment.time, cycle)
     });
     let one: Vec<usize> = of_log.collect();
     one.repeat(fit.stack.dof())

@@ -1,18 +1,16 @@
 //! `robot-model emit`: an arm's equations as source code.
 
-use std::ffi::OsStr;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::builder::{EnumValueParser, PossibleValue, TypedValueParser};
-use clap::error::{ContextKind, ContextValue};
-use clap::{Arg, Args, Command, ValueEnum};
+use clap::{Args, ValueEnum};
 use robot_model_codegen::Origin;
 use robot_model_codegen::emit::c::{Prefix, PrefixError};
 use robot_model_codegen::emit::{self, Extent};
 
 use crate::Error;
+use crate::hinted::{Hinted, Hints};
 use crate::output::{self, Files, OutFile};
 use crate::parameters;
 use crate::spec::compile_instantaneous;
@@ -27,7 +25,7 @@ pub(crate) struct Emit {
     /// The `.robot` file.
     spec: PathBuf,
     /// Language of the code.
-    #[arg(long, ignore_case = true, value_parser = LanguageParser)]
+    #[arg(long, ignore_case = true, value_parser = Hinted::<Language>::new(LANGUAGE_HINTS))]
     lang: Language,
     /// Folder to write to, created if missing. A Rust file is named after the spec, C files after the robot or `--name`.
     #[arg(long, value_name = "DIR")]
@@ -76,40 +74,11 @@ fn prefix(text: &str) -> Result<Prefix, String> {
     })
 }
 
-/// Languages by their names, with a hint at those that have none.
-#[derive(Clone)]
-struct LanguageParser;
-
-impl TypedValueParser for LanguageParser {
-    type Value = Language;
-
-    fn parse_ref(
-        &self,
-        command: &Command,
-        argument: Option<&Arg>,
-        value: &OsStr,
-    ) -> Result<Language, clap::Error> {
-        let known = EnumValueParser::<Language>::new();
-        known
-            .parse_ref(command, argument, value)
-            .map_err(|mut error| {
-                if ["c++", "cpp", "cxx", "cc"]
-                    .iter()
-                    .any(|name| value.eq_ignore_ascii_case(name))
-                {
-                    let hint = "write `c`: the C code compiles as C++ too".into();
-                    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint]));
-                    error.remove(ContextKind::SuggestedValue);
-                }
-                error
-            })
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let values = Language::value_variants().iter();
-        Some(Box::new(values.filter_map(ValueEnum::to_possible_value)))
-    }
-}
+/// Words for a language that the code of another one serves.
+const LANGUAGE_HINTS: Hints = &[(
+    &["c++", "cpp", "cxx", "cc"],
+    "write `c`: the C code compiles as C++ too",
+)];
 
 impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {

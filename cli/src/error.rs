@@ -97,7 +97,8 @@ impl Error {
         match self {
             Self::Log(error) => {
                 let place = error.place()?;
-                let mark = place.words.map_or(Mark::Line, Mark::Words);
+                let number = place.number.map_or(Mark::Line, Mark::Number);
+                let mark = place.words.map_or(number, Mark::Words);
                 snippet::render(Path::new(place.source_name), place.line, mark, color)
             }
             Self::Json {

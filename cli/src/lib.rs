@@ -20,6 +20,7 @@ mod eval;
 mod excite;
 mod export;
 mod friction;
+mod hinted;
 mod identify;
 mod import;
 mod in_order;

@@ -18,6 +18,8 @@ pub(crate) enum Mark<'a> {
     Letters(Range<usize>),
     /// Words, where they stand in the line once; else the first letter of the line.
     Words(&'a str),
+    /// The field that is this number, where one is; else the first letter of the line.
+    Number(f64),
 }
 
 /// Bytes up to the end of the line. What is farther behind is not looked for.
@@ -68,6 +70,19 @@ impl Mark<'_> {
                 let mut letters = line.char_indices().skip(column.saturating_sub(1));
                 letter(letters.next().map_or(line.len(), |(at, _)| at))
             }
+            Self::Number(number) => {
+                let mut begin = 0;
+                let fields = line.split([',', ';', '\t', '|', ' ']).map(|field| {
+                    let at = begin;
+                    begin += field.len() + 1;
+                    at..at + field.len()
+                });
+                let mut fields = fields.filter(|at| line[at.clone()].parse() == Ok(number));
+                match (fields.next(), fields.next()) {
+                    (Some(field), None) => field,
+                    _ => first,
+                }
+            }
             Self::Words(words) => {
                 let mut places = line.match_indices(words).filter(|(at, words)| {
                     let belongs = |c: char| c.is_alphanumeric() || "_.+-".contains(c);
@@ -102,6 +117,8 @@ mod tests {
             (2, Mark::Words("0"), "2 | 0,1,2\n  | ^"),
             (1, Mark::Words("tau"), "1 | time,q1,tau1\n  | ^"),
             (1, Mark::Column(6), "1 | time,q1,tau1\n  |      ^"),
+            (3, Mark::Number(0.1), "3 | 0.1,abc,2\n  | ^^^"),
+            (3, Mark::Number(7.0), "3 | 0.1,abc,2\n  | ^"),
             (3, Mark::Line, "3 | 0.1,abc,2\n  | ^"),
         ] {
             let shown = shown(log, line, mark.clone()).expect("a line");

@@ -123,7 +123,14 @@ fn a_reader_gets_what_the_page_says() {
         "shoulder.load_dependent_friction.mu",
     );
     assert!((mu - 0.12).abs() < 0.004, "{mu}");
-    for file in ["motion.svg", "src/arm2.rs", "src/reach.c", "src/reach.h"] {
+    for file in [
+        "motion.svg",
+        "src/arm2.rs",
+        "src/reach.c",
+        "src/reach.h",
+        "identified.urdf",
+        "identified.xml",
+    ] {
         assert!(folder.join(file).exists(), "{file}");
     }
     // Friction that grows with the load is no delay.

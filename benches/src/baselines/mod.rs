@@ -19,7 +19,7 @@ mod thresholding;
 
 pub use blocked::blocked;
 pub use lasso::lasso;
-pub use rows::{Column, FOLDS, Rows, by_lot};
+pub use rows::{Column, FOLDS, Rows, by_blocks, by_lot};
 pub use selection::selection;
 pub use thresholding::thresholding;
 

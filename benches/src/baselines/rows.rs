@@ -271,6 +271,16 @@ pub fn by_lot(rows: usize) -> Vec<usize> {
     folds
 }
 
+/// Folds of rows at these times, s: in every cycle as many equal blocks as folds, one after the other and without gaps.
+#[must_use]
+pub fn by_blocks(times: &[f64], cycle: f64) -> Vec<usize> {
+    let fold = |time: &f64| {
+        let place = (time / cycle).rem_euclid(1.0) * FOLDS as f64;
+        (1..FOLDS).filter(|k| *k as f64 <= place).count()
+    };
+    times.iter().map(fold).collect()
+}
+
 fn products(table: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
     let part = Mat::from_fn(rows.len(), table.ncols(), |k, c| table[(rows[k], c)]);
     part.transpose() * &part
@@ -318,6 +328,17 @@ mod tests {
         let errors = [vec![3.0, 1.0, 0.9, 1.0], vec![3.0, 1.1, 1.1, 1.4]];
         assert_eq!(one_standard_error(&errors), 1);
         assert_eq!(one_standard_error(&[vec![2.0], vec![2.0]]), 0);
+    }
+
+    #[test]
+    fn blocks_follow_each_other_and_come_again_with_the_cycle() {
+        let times: Vec<f64> = (0..400).map(|row| 0.1 * f64::from(row) + 0.05).collect();
+        let folds = by_blocks(&times, 20.0);
+        for (row, fold) in folds.iter().enumerate() {
+            // Blocks of 2 s have 20 rows.
+            assert_eq!(*fold, row / 20 % FOLDS, "row {row}");
+        }
+        assert_eq!(by_blocks(&[-0.5, 20.0], 20.0), [FOLDS - 1, 0]);
     }
 
     #[test]

@@ -40,6 +40,14 @@ const EFFECTS: [(&str, f64); 9] = [
 const WORN: (&str, f64) = ("elbow.stribeck.fs", 2.2);
 const WORN_SPEED: f64 = 0.15;
 
+/// How one's own arm goes the same way.
+const NEXT: &str = "
+Next, with your own arm and logs (docs/tutorial.md goes through it):
+  robot-model import arm.urdf -o arm.robot      # a spec from a URDF; without one: robot-model new Arm -o arm.robot
+  robot-model identify arm.robot log.csv --validate other.csv
+  robot-model trace arm.robot log.csv --validate other.csv --report report
+";
+
 /// Run the whole loop on a built-in arm, without files: identify, trace, amend, recompile, compare.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -107,5 +115,6 @@ fn story(clean: &Loop, worn: &Loop) -> String {
         WORN.0, WORN.1
     )
     .expect("a string takes all");
+    text.push_str(NEXT);
     text
 }

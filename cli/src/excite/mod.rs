@@ -149,6 +149,9 @@ pub(crate) struct Excite {
     json: Option<PathBuf>,
 }
 
+/// When a search is said to go on where no terminal shows its time: first after this, then each time that it took twice as long.
+const LONG: Duration = Duration::from_secs(20);
+
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 enum EndsArgument {
     /// At rest, at an optimized pose.
@@ -233,7 +236,9 @@ fn search(
     let budget = budget.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
     let interrupted = Wish::watch();
     let told = Cell::new(0);
+    let next = Cell::new(LONG);
     let watch = |search: Search| {
+        let took = started.elapsed();
         if told.replace(search.start) != search.start {
             let best = search.best.filter(|best| best.is_finite());
             let best = best.map_or_else(String::new, |best| {
@@ -242,8 +247,16 @@ fn search(
             let what = format!("start {} of {}{best}", search.start, request.starts);
             let behind = search.start.saturating_sub(1) as f64;
             progress.part(&what, behind / request.starts as f64);
+        } else if !progress.is_live() && took >= next.get() {
+            next.set(took * 2);
+            progress.step(&format!(
+                "start {} of {} goes on, {} s so far; Ctrl-C or `--budget S` ends the search with the best motion so far",
+                search.start,
+                request.starts,
+                took.as_secs()
+            ));
         }
-        !interrupted.is_pressed() && budget.is_none_or(|budget| started.elapsed() < budget)
+        !interrupted.is_pressed() && budget.is_none_or(|budget| took < budget)
     };
     let design = request.run(&watch).map_err(|error| refused(&error))?;
     if design.stopped {

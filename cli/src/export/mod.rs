@@ -15,6 +15,7 @@ use robot_model_spec::parameter::{InertialElement, Owner};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, write_back};
 
 use crate::Error;
+use crate::hinted::{Hinted, Hints};
 use crate::output::{Content, Files, MARK, say};
 use crate::parameters;
 use crate::spec::{compile, read_text};
@@ -33,7 +34,7 @@ pub(crate) struct Export {
     /// The `.robot` file.
     spec: PathBuf,
     /// Format to write.
-    #[arg(long = "as", value_enum)]
+    #[arg(long = "as", value_parser = Hinted::<Format>::new(FORMAT_HINTS))]
     format: Format,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
@@ -66,6 +67,23 @@ enum Format {
     /// A `MuJoCo` model, which also has rotors, springs, gravity and motors.
     Mjcf,
 }
+
+/// Words for what other commands write.
+const FORMAT_HINTS: Hints = &[
+    (
+        &["json"],
+        "for parameter values as JSON, use `robot-model identify --json FILE`",
+    ),
+    (
+        &["c", "c++", "cpp", "rust"],
+        "for source code, use `robot-model emit --lang c` or `--lang rust`",
+    ),
+    (&["xml", "mujoco"], "write `mjcf`"),
+    (
+        &["robot", "spec"],
+        "for a spec with an effect added, use `robot-model trace --amend FILE`; for one from a URDF, `robot-model import`",
+    ),
+];
 
 impl Format {
     const fn content(self) -> Content {

@@ -113,7 +113,7 @@ impl<'a> Evidence<'a> {
         base_parameters(&mut page, self.compiled);
         page.section("Data");
         self.data(&mut page, &of_logs);
-        page.section("As printed");
+        page.section("Terminal output");
         page.preformatted(self.printed);
         again(&mut page, inputs)?;
         Ok(page.finish())
@@ -237,10 +237,11 @@ impl<'a> Evidence<'a> {
 
     /// What is left of the torque of every joint.
     fn bars(&self, page: &mut Page) {
+        // The model of the spec is in the same color as on a page of `trace`.
         const INKS: [(Ink, &str); 3] = [
             (Ink::Before, "before"),
-            (Ink::After, "after"),
             (Ink::Measured, "measured"),
+            (Ink::After, "after"),
         ];
         let drawn = || self.errors.iter().zip(INKS);
         // Of a joint that stands nothing is known, and no bar is no error of zero.
@@ -286,7 +287,7 @@ impl<'a> Evidence<'a> {
         };
         page.text(&format!("On {which}, {}.", log.source));
         let shown = Shown {
-            color: Ink::After,
+            color: Ink::Before,
             arm,
             estimate,
         };
@@ -300,7 +301,7 @@ impl<'a> Evidence<'a> {
             page,
             arm.joints(),
             &drawn,
-            &[("after", "model")],
+            &[("before", "model")],
             &|joint| worst.contains(&joint),
         );
         Ok(())

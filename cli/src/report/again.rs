@@ -16,7 +16,7 @@ const PIECE: usize = 1 << 16;
 /// # Errors
 /// A file that cannot be read any more.
 pub(crate) fn again(page: &mut Page, inputs: &[PathBuf]) -> Result<(), Error> {
-    page.section("Again");
+    page.section("How to reproduce");
     page.text(&format!(
         "To make this page again from the same files, with robot-model {}:",
         env!("CARGO_PKG_VERSION")

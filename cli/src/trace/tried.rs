@@ -13,6 +13,9 @@ const MOST: usize = 5;
 /// Scores beyond this are told by their power of ten.
 const MOST_SCORE: f64 = 1e6;
 
+const HEAD: &str = "Significant candidates, best first in each round; `held-out` and `raw`: largest fall of a joint's error on folds not fitted \
+     and on raw samples";
+
 const PUT: &str = "a string takes all";
 
 /// Round, effect, score, fall of the errors and outcome of so many a round that count.
@@ -43,8 +46,7 @@ pub(super) fn tried(closed: &Loop) -> String {
     rows.insert(0, head);
     let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
     let widths = [0, 1, 2, 3, 4].map(width);
-    let mut out =
-        String::from("\nSignificant candidates, with the largest fall of a joint's error:\n");
+    let mut out = format!("\n{HEAD}:\n");
     for [round, effect, score, held_out, raw, end] in &rows {
         let [of_round, of_effect, of_score, of_held_out, of_raw] = widths;
         let line = format!(

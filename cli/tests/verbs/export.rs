@@ -303,6 +303,23 @@ fn a_possible_arm_is_written_as_it_is() {
     );
 }
 
+/// What other commands write has their names.
+#[test]
+fn formats_of_other_commands_are_told() {
+    let folder = Folder::new();
+    folder.write("arm.robot", CART);
+    for (format, hint) in [
+        ("JSON", "use `robot-model identify --json FILE`"),
+        ("c", "use `robot-model emit --lang c`"),
+        ("mujoco", "write `mjcf`"),
+        ("sdf", "[possible values: urdf, mjcf]"),
+    ] {
+        let run = folder.run(&["export", "arm.robot", "--as", format, "-o", "out"]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains(hint), "{}", run.stderr);
+    }
+}
+
 #[test]
 fn what_cannot_be_exported_is_refused() {
     let folder = Folder::new();

@@ -211,7 +211,10 @@ effect seal(j) {
 fn a_page_says_of_which_files_it_is() {
     let (folder, html) = traced(CART, &cart_log(20, 0.0, 0.0));
     let version = format!("with robot-model {}:", env!("CARGO_PKG_VERSION"));
-    assert!(below(&html, "Again").contains(&version), "{html}");
+    assert!(
+        below(&html, "How to reproduce").contains(&version),
+        "{html}"
+    );
     let page = Html::parse_document(&html);
     let files = cells(&page, "Input files");
     let names: Vec<&str> = files.iter().map(|row| row[0].as_str()).collect();

@@ -258,6 +258,9 @@ fn not_xml(said: &str, open: &[Open]) -> String {
             "{said}, inside the `<{}>` of line {}: mend the XML there",
             inner.name, inner.line
         ),
+        None if said.contains("outside the root element") => {
+            "the file is not XML: a URDF begins with `<robot name=\"..\">`".to_owned()
+        }
         None => format!("{said}: a URDF begins with `<robot name=\"..\">`"),
     }
 }

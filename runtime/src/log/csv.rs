@@ -252,7 +252,8 @@ impl Rows for CsvRows<'_> {
             if !is_ahead && !self.records.next()? {
                 return Ok(false);
             }
-            self.add(table, &mut row)?;
+            self.add(table, &mut row)
+                .map_err(|error| self.records.cut(error))?;
         }
         Ok(true)
     }
@@ -287,6 +288,20 @@ impl<'a> Records<'a> {
             let control = byte.map(|byte| not_text(&self.source, self.line, field, byte));
             text.err().or(control)
         })
+    }
+
+    /// The same error, which says of a short row whether it is the last one.
+    fn cut(&mut self, mut error: LogError) -> LogError {
+        if let LogError::ColumnCount {
+            found,
+            expected,
+            is_cut,
+            ..
+        } = &mut error
+        {
+            *is_cut = found < expected && matches!(self.next(), Ok(false));
+        }
+        error
     }
 
     /// Moves on to the next record; `line` follows it. False at the end.

@@ -233,7 +233,12 @@ pub enum LogError {
         source_name: String,
     },
     /// A row that is longer or shorter than the header.
-    #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}; give every row one field per column, or remove the row", plural(*.found))]
+    #[error(
+        "{source_name}:{line}: the {}row has {found} field{}, the header has {expected}; {}",
+        if *.is_cut { "last " } else { "" },
+        plural(*.found),
+        if *.is_cut { "the file may be cut short: remove the row" } else { "give every row one field per column, or remove the row" }
+    )]
     ColumnCount {
         /// The file.
         source_name: String,
@@ -243,6 +248,8 @@ pub enum LogError {
         found: usize,
         /// Fields of the header.
         expected: usize,
+        /// Whether it is the last row and too short.
+        is_cut: bool,
     },
     /// A field that is no number.
     #[error(

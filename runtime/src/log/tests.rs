@@ -330,6 +330,14 @@ fn files_that_are_no_csv_are_told() {
         with(b"time,q1,tau1\n0,\xe9,0\n")
             .starts_with("monday.csv:2: byte 0xe9 in `\u{fffd}` is not UTF-8 text")
     );
+    assert_eq!(
+        with(b"time,q1,tau1\n0,\xe9\x03\xf5,0\n"),
+        "monday.csv:2: byte 0xe9 begins binary data: the file is damaged, or none of text; copy it again, or remove the rows from here on"
+    );
+    assert_eq!(
+        with(b"time,q1,tau1\n0,0,0\n0.01,0."),
+        "monday.csv:3: the last row has 2 fields, the header has 3; the file may be cut short: remove the row"
+    );
     for (name, bytes) in [
         ("bag.MCAP", b"\x88MCAP0\r\n".as_slice()),
         ("monday.parquet", b"\0AR1\x15\x04"),

@@ -81,6 +81,7 @@ impl Layout {
                     line,
                     found,
                     expected: expected + self.tail.unwrap_or_default(),
+                    is_cut: false,
                 });
             }
         }

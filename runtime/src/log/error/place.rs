@@ -3,7 +3,7 @@
 use super::{LogError, TextError};
 
 /// A line of a text that an error is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct TextPlace<'a> {
     /// The file.
@@ -12,6 +12,8 @@ pub struct TextPlace<'a> {
     pub line: u64,
     /// What is at fault there, where it is less than the whole line.
     pub words: Option<&'a str>,
+    /// The number that is at fault there, as it was read.
+    pub number: Option<f64>,
 }
 
 impl LogError {
@@ -70,15 +72,28 @@ impl LogError {
             } => (source_name, line, None),
             Self::Text(error) => return error.place(),
             Self::ManyLost { first, .. } => return first.place(),
-            Self::TimeOrder { place, .. }
-            | Self::Gap { place, .. }
-            | Self::Implausible { place, .. } => return of_words(place),
+            Self::TimeOrder {
+                place,
+                time: number,
+                ..
+            }
+            | Self::Gap {
+                place,
+                time: number,
+                ..
+            }
+            | Self::Implausible {
+                place,
+                value: number,
+                ..
+            } => return of_number(place, *number),
             _ => return None,
         };
         Some(TextPlace {
             source_name,
             line: *line,
             words: words.map(String::as_str),
+            number: None,
         })
     }
 }
@@ -115,16 +130,18 @@ impl TextError {
             source_name,
             line: *line,
             words: words.map(String::as_str),
+            number: None,
         })
     }
 }
 
 /// `arm.csv:17`; a log of no lines has a sample's number there.
-fn of_words(place: &str) -> Option<TextPlace<'_>> {
+fn of_number(place: &str, number: f64) -> Option<TextPlace<'_>> {
     let (source_name, line) = place.rsplit_once(':')?;
     Some(TextPlace {
         source_name,
         line: line.parse().ok()?,
         words: None,
+        number: Some(number),
     })
 }

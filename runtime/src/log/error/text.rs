@@ -4,15 +4,24 @@ use thiserror::Error;
 
 use super::super::words::{field, list};
 
-/// How a file with such a byte becomes a text that is read.
-fn to_text(source_name: &str, byte: u8) -> String {
-    let encoding = match byte {
-        0 => "utf16",
-        0x80.. => "latin1",
-        _ => {
-            return "no text contains such a byte: name the file that has the numbers".to_owned();
-        }
+/// What a byte that is no text stands in, and how the file becomes a text that is read.
+fn not_text(source_name: &str, text: &str, byte: u8) -> String {
+    // What is read as UTF-8 has unknown bytes as U+FFFD, and a message has control characters with a backslash.
+    let is_binary = byte >= 0x80 && text.contains('\\');
+    if is_binary {
+        return format!(
+            "byte 0x{byte:02x} begins binary data: the file is damaged, or none of text; copy it again, or remove the rows from here on"
+        );
+    }
+    let way_out = match byte {
+        0 => convert(source_name, "utf16"),
+        0x80.. => convert(source_name, "latin1"),
+        _ => "no text contains such a byte: name the file that has the numbers".to_owned(),
     };
+    format!("byte 0x{byte:02x} in `{text}` is not UTF-8 text; {way_out}")
+}
+
+fn convert(source_name: &str, encoding: &str) -> String {
     format!(
         "save the log as CSV in UTF-8, or convert it: `iconv -f {encoding} -t utf8 {source_name} > utf8.csv`"
     )
@@ -84,8 +93,8 @@ pub enum TextError {
     },
     /// Bytes that are no text.
     #[error(
-        "{source_name}:{line}: byte 0x{byte:02x} in `{text}` is not UTF-8 text; {}",
-        to_text(source_name, *.byte)
+        "{source_name}:{line}: {}",
+        not_text(source_name, text, *.byte)
     )]
     NotText {
         /// The file.

@@ -62,13 +62,13 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Chance => write!(f, "not significant"),
-            Self::EndOfRange => write!(f, "shape at the end of its range"),
+            Self::EndOfRange => write!(f, "shape at its limit"),
             Self::Unsteady => write!(f, "folds disagree"),
             Self::Sign => write!(f, "wrong sign"),
             Self::HeldOut => write!(f, "no better held out"),
             Self::Small => write!(f, "under {MATERIAL_PERCENT} % of the error"),
             Self::Unsolved => write!(f, "no solution in its ranges"),
-            Self::Noise => write!(f, "noise of the torque itself"),
+            Self::Noise => write!(f, "only measurement noise"),
             Self::ComesBack => write!(f, "leaves a repeating residual"),
             Self::Undetermined => write!(f, "no parameter is significant"),
             Self::AtTurns => write!(f, "only near velocity reversals"),
