@@ -39,7 +39,7 @@ impl<T: ValueEnum + Clone + Send + Sync + 'static> TypedValueParser for Hinted<T
         parsed.map_err(|mut error| {
             let is_meant = |word: &&str| value.eq_ignore_ascii_case(word);
             let mut hints = self.hints.iter();
-            if let Some((_, hint)) = hints.find(|(words, _)| words.iter().any(|w| is_meant(&w))) {
+            if let Some((_, hint)) = hints.find(|(words, _)| words.iter().any(is_meant)) {
                 let hint = (*hint).into();
                 error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint]));
                 error.remove(ContextKind::SuggestedValue);
