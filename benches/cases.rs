@@ -11,7 +11,7 @@ use std::time::Instant;
 use clap::Parser;
 use robot_model::log::Log;
 use robot_model_benches::ended;
-use robot_model_cli::close_the_loop::{Loop, Progress, close};
+use robot_model_cli::close_the_loop::{Progress, close};
 use robot_model_tests::cases::{self, Case};
 use serde_json::json;
 
@@ -81,7 +81,7 @@ fn answered(case: &Case, folder: Option<&Path>) -> Result<Answer, String> {
     let closed = close(&name, &case.spec, &[identify], Some(&validate), &progress)
         .map_err(|error| said(&error))?;
     let seconds = start.elapsed().as_secs_f64();
-    let named = named(&closed);
+    let named = cases::named(&closed);
     let outcome = closed.outcome().name();
     let errors = [&closed.before, closed.after()].map(|stage| {
         let errors = stage.validation.as_ref();
@@ -113,16 +113,6 @@ fn answered(case: &Case, folder: Option<&Path>) -> Result<Answer, String> {
         said: named,
         seconds,
     })
-}
-
-/// What the loop says is missing: faults of the logs, and effects.
-fn named(closed: &Loop) -> Vec<(String, Vec<usize>)> {
-    let from_one = |joints: &[usize]| joints.iter().map(|joint| joint + 1).collect();
-    let faults = closed.faults.iter();
-    let faults = faults.map(|fault| (fault.kind.to_owned(), from_one(&fault.joints)));
-    let findings = closed.verdict.findings.iter();
-    let findings = findings.map(|one| (one.kind.clone(), from_one(&one.joints)));
-    faults.chain(findings).collect()
 }
 
 fn line(case: &Case, answer: &Answer) -> String {

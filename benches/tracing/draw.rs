@@ -10,7 +10,7 @@ use crate::experiment::Case;
 /// The effect that comes back in every period, and so needs periods.
 const OF_PERIODS: &str = "recurring_force";
 
-/// What is drawn. All sizes of an effect share it, so that a curve over sizes is of one motion.
+/// What is drawn. All sizes of a known effect share it, so that a curve over sizes is of one motion.
 #[derive(Debug)]
 pub struct Draw {
     /// Joints that the effect is on, from 0.
@@ -23,13 +23,14 @@ pub struct Draw {
 }
 
 impl Draw {
-    /// Of this experiment: a stream of its own for every arm and place in the catalogue, and for every size of an arm that lacks nothing, which is
-    /// another arm. What is added at the end of the catalogue changes no other.
+    /// Of this experiment: a stream of its own for every arm and place in the catalogue, and for every size where no name is right, whose rates no
+    /// curve over sizes shows. What is added at the end of the catalogue changes no other.
     pub fn new(case: &Case) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(case.seed);
-        let size = match case.injection.place {
-            Place::Nowhere => case.share.to_bits(),
-            _ => 0,
+        let size = if case.injection.is_named() {
+            0
+        } else {
+            case.share.to_bits()
         };
         let own = (place(ARMS, case.arm) as u64) << 32 | (case.number() as u64) << 16;
         random.set_stream(own ^ size);

@@ -87,9 +87,10 @@ pub struct Answer {
 type Said = [(String, Vec<usize>)];
 
 impl Row {
-    /// What it shares with the same effect in other sizes: joint, motion and noise. Arms that lack nothing share them with none.
+    /// What it shares with the same effect in other sizes: joint, motion and noise. Arms that lack nothing or have an unknown law share them with
+    /// none.
     pub fn draw(&self) -> (&str, usize, u64, u64) {
-        let size = if self.kind == "nothing" {
+        let size = if ["nothing", "unknown"].contains(&self.kind.as_str()) {
             self.share.to_bits()
         } else {
             0

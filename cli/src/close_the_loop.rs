@@ -221,6 +221,7 @@ fn trace(
 ) -> Result<Verdict, Error> {
     let (mut text, mut logs) = (text.to_owned(), logs.to_vec());
     let mut found: Option<Verdict> = None;
+    let mut rounds = Rounds::new(MOST_EFFECTS);
     loop {
         let arm = compiled(source_name, &text)?;
         let undeclared = arm.undeclared();
@@ -233,7 +234,6 @@ fn trace(
         if let Some(found) = &found {
             trace = trace.since(found);
         }
-        let mut rounds = Rounds::new(MOST_EFFECTS);
         let verdict = trace.run(&arm, &logs, &mut |stage| {
             let told = rounds.told(stage.words, stage.done);
             progress.stage(&told, stage.done);

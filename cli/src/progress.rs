@@ -180,12 +180,19 @@ impl Progress {
         text
     }
 
-    /// Says a stage: in plain lines where it begins, on a terminal with the part of it that is done, too.
+    /// Says a stage: in plain lines where it begins and, of a long one, now and then how far it is; on a terminal with the part of it that is done.
     pub(crate) fn stage(&self, what: &str, done: Option<f64>) {
         match done {
             Some(done) if self.is_live() => self.part(what, done),
-            Some(done) if done > 0.0 => {}
-            _ => self.step(what),
+            Some(done) if done > 0.0 => {
+                if self.is_due() {
+                    self.step(&format!("{:.0} % of {what}", 100.0 * done));
+                }
+            }
+            _ => {
+                self.step(what);
+                *self.said.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+            }
         }
     }
 

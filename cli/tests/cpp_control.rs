@@ -32,6 +32,7 @@ fn the_arm_is_held() {
         .arg("CXXFLAGS=-O2 -Wall -Wextra -Wpedantic -Werror")
         .output()
         .expect("make runs");
+    assert!(build.path().join("libtwo_link_arm.a").exists());
     let said = String::from_utf8_lossy(&output.stdout);
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}{errors}");

@@ -4,8 +4,8 @@
 ///
 /// Identifiable where the joint moves in both directions, and rests in many samples.
 ///
-/// Confused with `torque_offset`: away from rest both are the same constant. Distinguished by no motion, but by samples at
-/// rest.
+/// Confused with `torque_offset`: away from rest both are the same constant. Distinguished by no motion; samples at
+/// rest distinguish them.
 ///
 /// Confused with `asymmetric_viscous`: at one speed both are the same constant. Distinguished by several speeds, slow ones
 /// among them.

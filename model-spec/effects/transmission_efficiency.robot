@@ -8,8 +8,8 @@
 /// links that are `fixed`, or links that also load other joints. On a single joint with unknown links a scaled load with other
 /// factors gives the same torque.
 ///
-/// Confused with `load_dependent_friction`: with `driving = driven` it is the same. Distinguished by no motion then; as far as
-/// the two losses differ, by loads that are lifted and lowered.
+/// Confused with `load_dependent_friction`: with `driving = driven` it is the same. Distinguished by no motion if the two
+/// losses are equal, and else by loads that are lifted and lowered.
 ///
 /// Confused with `torque_gain`: where the load is only lifted both are in proportion to it, and `driven = -driving` would be a
 /// gain. Distinguished by no motion but by the signs, as a gear that is driven loses as well: loads have to be lifted and

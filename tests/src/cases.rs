@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use robot_model_cli::close_the_loop::Loop;
 use robot_model_spec::urdf::{ImportOptions, Inertials, import};
 use serde::Deserialize;
 
@@ -176,6 +177,17 @@ struct RobotInertials {
 struct Declared {
     joint: usize,
     effects: Vec<String>,
+}
+
+/// What the loop says is missing: faults of the logs, and effects, with joints from 1.
+#[must_use]
+pub fn named(closed: &Loop) -> Vec<(String, Vec<usize>)> {
+    let from_one = |joints: &[usize]| joints.iter().map(|joint| joint + 1).collect();
+    let faults = closed.faults.iter();
+    let faults = faults.map(|fault| (fault.kind.to_owned(), from_one(&fault.joints)));
+    let findings = closed.verdict.findings.iter();
+    let findings = findings.map(|one| (one.kind.clone(), from_one(&one.joints)));
+    faults.chain(findings).collect()
 }
 
 /// All open cases, where they are there.

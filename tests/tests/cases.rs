@@ -4,6 +4,7 @@ use robot_model::columns::{Arm, Columns};
 use robot_model::identify::Identify;
 use robot_model::log::Log;
 use robot_model::trace::{Outcome, Trace};
+use robot_model_cli::close_the_loop::{Progress, close};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::compile_model;
@@ -114,5 +115,35 @@ fn nothing_is_named_on_arms_that_miss_nothing() {
             verdict.findings,
             verdict.leads
         );
+    }
+}
+
+/// Arms of so many joints take seconds each; `cargo bench --bench cases` traces all.
+const FEW_JOINTS: usize = 3;
+
+/// Their effects are named on their joints and nothing else is, faults of logs are told as such, and what is no effect gets no name; on a log
+/// that was not fitted the error is down at what is achievable.
+#[test]
+fn arms_of_few_joints_have_the_verdicts_of_their_keys() {
+    for case in cases::open() {
+        if case.dof > FEW_JOINTS {
+            continue;
+        }
+        let unseen = Log::read(&case.validate, case.dof).unwrap_or_else(|error| panic!("{error}"));
+        let name = format!("{}.robot", case.name);
+        let logs = [log(&case)];
+        let closed = close(&name, &case.spec, &logs, Some(&unseen), &Progress::silent())
+            .unwrap_or_else(|error| panic!("{}: {error}", case.name));
+        let (outcome, said) = (closed.outcome().name(), cases::named(&closed));
+        assert!(
+            case.key.is_met(outcome, &said),
+            "{}: {outcome}, {said:?}",
+            case.name
+        );
+        if case.key.expected_outcome == "explained" {
+            let errors = closed.after().validation.as_ref().expect("a log for it");
+            let over = case.key.over_achievable(&errors.rmse);
+            assert!(over < 1.35, "{}: {over} times the achievable", case.name);
+        }
     }
 }

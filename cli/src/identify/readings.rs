@@ -99,14 +99,15 @@ impl Reading {
         match self {
             Self::In(units, which) => units.said(which, joints),
             Self::Mirrored(channel, joint) => {
-                let (what, column, unit) = match channel {
-                    Channel::Position => ("position", "q", "rad"),
-                    Channel::Torque => ("torque", "tau", "Nm"),
+                let (what, column, unit, other) = match channel {
+                    Channel::Position => ("position", "q", "rad", "torque"),
+                    Channel::Torque => ("torque", "tau", "Nm", "position"),
                 };
                 [
                     format!("the {what} of `{}` with the opposite sign", joints[*joint]),
                     format!(
-                        "does its sign agree with the spec's joint? Invert it in the spec: `log {{ {column} = \"{column}{}\": -1 {unit}, ..; }}`",
+                        "does its sign agree with the spec's joint? If the {other} has the right sign, invert it in the spec: \
+                         `log {{ {column} = \"{column}{}\": -1 {unit}, ..; }}`, else the {other}",
                         joint + 1
                     ),
                 ]

@@ -52,6 +52,7 @@ impl Bars<'_> {
             let root = SVGBackend::with_string(&mut text, (WIDTH, height)).into_drawing_area();
             let mut chart = ChartBuilder::on(&root)
                 .margin(6)
+                .margin_right(22)
                 .x_label_area_size(42)
                 .y_label_area_size(names.min(WIDTH / 3))
                 .build_cartesian_2d(x, y)

@@ -101,12 +101,15 @@ impl Page {
             prose(caption)
         )
         .expect(PUT);
-        for (column, name) in head.iter().enumerate() {
+        let is_number = |column: usize| {
             let mut cells = rows.iter().filter_map(|row| row.get(column));
-            let is_number = column > 0
+            column > 0
                 && cells.clone().any(|cell| number(cell).is_some())
-                && cells.all(|cell| number(cell).is_some() || cell.len() < 2);
-            let class = if is_number { " class=\"number\"" } else { "" };
+                && cells.all(|cell| number(cell).is_some() || cell.len() < 2)
+        };
+        let are_numbers: Vec<bool> = (0..head.len()).map(is_number).collect();
+        for (name, is_number) in head.iter().zip(&are_numbers) {
+            let class = if *is_number { " class=\"number\"" } else { "" };
             writeln!(
                 self.body,
                 "<th scope=\"col\"{class}><button type=\"button\">{}</button></th>",
@@ -128,6 +131,10 @@ impl Page {
                     (0, _) => format!("<th scope=\"row\">{text}</th>"),
                     (_, Some(value)) => {
                         format!("<td class=\"number\"{named} data-value=\"{value}\">{text}</td>")
+                    }
+                    // `-` among numbers.
+                    _ if are_numbers.get(column) == Some(&true) => {
+                        format!("<td class=\"number\"{named}>{text}</td>")
                     }
                     _ => format!("<td{named}>{text}</td>"),
                 };

@@ -321,10 +321,10 @@ mod tests {
             by_no_motion(
                 "asymmetric-coulomb",
                 "torque-offset on elbow",
-                "no motion, but by samples at rest"
+                "no motion; samples at rest distinguish them"
             ),
-            "  along these logs asymmetric-coulomb and torque-offset on elbow are identical; they are distinguished by no motion, but by samples \
-             at rest\n"
+            "  along these logs asymmetric-coulomb and torque-offset on elbow are identical; they are distinguished by no motion; samples \
+             at rest distinguish them\n"
         );
         assert!(not_tried(1).starts_with("  1 more alternative is not tried"));
         assert!(not_tried(2).starts_with("  2 more alternatives are not tried"));

@@ -204,7 +204,7 @@ fn errors(page: &mut Page, closed: &Loop) {
     let from = closed.verdict.noise_floor.first().map(|floor| floor.from);
     let floor = match from {
         Some(FloorFrom::Periods) => "variation between periods of the motion",
-        _ => "residual of curves over the motion, on data they were not fitted to",
+        _ => "upper bound: residual of curves over the motion, on data they were not fitted to",
     };
     page.figures(
         &[bars(closed)],

@@ -33,6 +33,8 @@ pub(crate) struct Report<'a> {
     noise_floor_from: Vec<&'static str>,
     /// Where the motion repeats, what the last model leaves of samples away from turns over that, per joint.
     times_noise_floor: Vec<Option<f64>>,
+    /// Where it does not, the share of the residual's power in the largest twentieth of rows away from turns, per joint.
+    pulse_share: Vec<Option<f64>>,
     /// Speeds below which dry friction does not act in full, per joint, rad/s or m/s.
     turn_speeds: &'a [f64],
     /// Share of the raw error's power that stands out of noise as structure, per joint, on the identification logs.
@@ -95,7 +97,8 @@ struct TermReport<'a> {
 
 #[derive(Serialize)]
 struct ShareReport {
-    /// position, velocity, acceleration, load, time, position-and-velocity, or positions or velocities of two joints
+    /// position, velocity, acceleration, load, time, position-and-velocity, velocity-and-time, or of two joints positions, velocities or
+    /// velocity-and-position
     of: &'static str,
     /// The joint, the first of two; none of time.
     joint: Option<usize>,
@@ -224,6 +227,11 @@ impl<'a> Report<'a> {
                 .map(|floor| floor.from.name())
                 .collect(),
             times_noise_floor: verdict.noise_floor.iter().map(Floor::times).collect(),
+            pulse_share: verdict
+                .noise_floor
+                .iter()
+                .map(|floor| floor.pulses)
+                .collect(),
             turn_speeds: &closed.after().turn_speeds,
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),

@@ -156,7 +156,7 @@ fn floor(closed: &Loop) -> String {
     let from = closed.verdict.noise_floor.first().map(|floor| floor.from);
     let how = match from {
         Some(FloorFrom::Periods) => "variation between periods of the motion",
-        _ => "residual of curves over the motion, on data they were not fitted to",
+        _ => "upper bound: residual of curves over the motion, on data they were not fitted to",
     };
     let floors: Vec<String> = floors.collect();
     format!(

@@ -37,7 +37,7 @@ pub(super) fn rows(
 /// A table of what explained more than chance, round by round; nothing where none did.
 pub(super) fn tried(closed: &Loop) -> String {
     let mut rows = rows(closed, MOST, &|one| {
-        !one.refusals.contains(&Refusal::Chance)
+        one.takes_much() || !one.refusals.contains(&Refusal::Chance)
     });
     if rows.is_empty() {
         return String::new();

@@ -1,7 +1,7 @@
 //! What the structure of a residual follows from, for people.
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Outcome, Share, Step, Whereabouts};
+use robot_model::trace::{Outcome, Quantity, Share, Step, Whereabouts};
 
 use crate::close_the_loop::Loop;
 use crate::output::significant;
@@ -48,7 +48,16 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
                 "errors away from velocity reversals are {times:.1} times the variation between periods: a repeating effect is missing"
             )
         });
-        let said = std::iter::once(follows).chain(step).chain(exceeded).chain(found);
+        let pulsed = verdict.noise_floor[joint].pulsed();
+        let pulsed = pulsed.filter(|_| verdict.outcome == Outcome::Unexplained);
+        let pulsed = pulsed.map(|share| {
+            format!(
+                "a twentieth of the samples has {:.0} % of its power, away from velocity reversals: pulses, as of impacts in a gap",
+                100.0 * share
+            )
+        });
+        let said = std::iter::once(follows).chain(step).chain(exceeded);
+        let said = said.chain(pulsed).chain(found);
         Some(said.collect())
     });
     told.collect()
@@ -81,19 +90,7 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     let told: Vec<String> = shares
         .map(|share| (share.of, 100.0 * share.share))
         .filter(|(_, percent)| *percent >= LEAST_PERCENT)
-        .map(|(of, percent)| {
-            let name = of.name().replace('-', " ");
-            let joints = of.joints();
-            let joints: Vec<&str> = joints.iter().map(|&k| names[k].as_str()).collect();
-            if joints.is_empty() {
-                format!("{percent:.0} % a function of {name}")
-            } else {
-                format!(
-                    "{percent:.0} % a function of {name} of {}",
-                    joints.join(" and ")
-                )
-            }
-        })
+        .map(|(of, percent)| format!("{percent:.0} % a function of {}", quantity(of, names)))
         .collect();
     let term = one.terms.first().map(|term| {
         let percent = 100.0 * term.share;
@@ -120,4 +117,19 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     format!(
         "of its residual on folds not fitted: {told}; highest spectral line at {peak:.2} Hz ({percent:.0} %)"
     )
+}
+
+/// A quantity in words.
+fn quantity(of: Quantity, names: &[String]) -> String {
+    let joints = of.joints();
+    let joints: Vec<&str> = joints.iter().map(|&joint| names[joint].as_str()).collect();
+    let name = of.name().replace('-', " ");
+    match (of, &joints[..]) {
+        (Quantity::VelocityAndPosition(..), [joint, other]) => {
+            format!("velocity of {joint} and position of {other}")
+        }
+        (Quantity::VelocityAndTime(_), [joint]) => format!("velocity of {joint} and time"),
+        (_, []) => name,
+        _ => format!("{name} of {}", joints.join(" and ")),
+    }
 }

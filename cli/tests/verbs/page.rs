@@ -165,6 +165,8 @@ fn a_report_has_enough_contrast() {
             ("--before", "--paper", 3.0),
             ("--after", "--paper", 3.0),
             ("--measured", "--paper", 3.0),
+            // Told apart without their hues, too.
+            ("--before", "--after", 2.0),
         ];
         for (front, back, least) in pairs {
             let found = contrast(&colors[front], &colors[back]);

@@ -110,7 +110,7 @@ impl fmt::Display for Note {
             ),
             Self::StandardColumns => write!(
                 f,
-                "it lacks the columns named by the spec's `log` or its settings, but has `time`, `q1` and so on: these are read, in SI units"
+                "it lacks the columns named by the spec's `log` or its settings, but has `time`, `q1` and so on: these are read, in SI units (torques in what the joint's `actuator_gain` takes, if it has one)"
             ),
             Self::Above {
                 lines,

@@ -6,8 +6,8 @@ use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
 use super::normal::{Normal, Smooth};
+use super::quantity::{Axis, Quantity};
 use super::search::Search;
-use super::whereabouts::Quantity;
 
 /// A curve is straight between so many values of its quantity, among which samples are evenly spread.
 const KNOTS: usize = 24;
@@ -27,23 +27,13 @@ pub(super) const STIFFNESS: [f64; 3] = [1e-2, 0.3, 10.0];
 
 /// A curve or surface, filtered.
 pub(super) struct Curve {
-    /// One a knot, and one more for a jump.
+    /// One a knot; where a velocity may jump, one more, or one for each knot of the other axis.
     pub(super) columns: Vec<Vec<f64>>,
     /// Columns of three knots in a row along an axis.
     pub(super) bends: Vec<[usize; 3]>,
 }
 
-impl Quantity {
-    /// Of a quantity that is several each of them; the last one may be a velocity.
-    fn axes(self) -> Vec<Self> {
-        match self {
-            Self::Motion(joint) => vec![Self::Position(joint), Self::Velocity(joint)],
-            Self::Positions(joint, other) => vec![Self::Position(other), Self::Position(joint)],
-            Self::Velocities(joint, other) => vec![Self::Velocity(other), Self::Velocity(joint)],
-            one => vec![one],
-        }
-    }
-
+impl Axis {
     /// The values between which a curve is straight; none of a quantity that stands.
     fn knots(self, most: usize, logs: &[Prepared]) -> Option<Vec<f64>> {
         let mut values: Vec<f64> = Vec::new();
@@ -79,28 +69,33 @@ impl Search<'_> {
         let axes = of.axes();
         let knots = axes.iter().map(|axis| axis.knots(most, &self.prepared));
         let knots = knots.collect::<Option<Vec<_>>>()?;
-        let jumps = axes.last().filter(|of| matches!(of, Quantity::Velocity(_)));
-        let cells: usize = knots.iter().map(Vec::len).product();
-        let mut all = vec![Vec::new(); cells + usize::from(jumps.is_some())];
+        let lengths: Vec<usize> = knots.iter().map(Vec::len).collect();
+        let cells: usize = lengths.iter().product();
+        let mut bends = bends(&lengths);
+        let velocity = axes.last().filter(|axis| matches!(axis, Axis::Velocity(_)));
+        let mut count = cells;
+        if velocity.is_some() {
+            // The jump may be another one at each knot of the other axis.
+            let others = &lengths[..lengths.len() - 1];
+            let of_jump = self::bends(others).into_iter();
+            bends.extend(of_jump.map(|three| three.map(|cell| cells + cell)));
+            count += others.iter().product::<usize>();
+        }
+        let mut all = vec![Vec::new(); count];
         let mut filtered = Vec::new();
         for log in &self.prepared {
             let samples = log.motion.time.len();
             let mut columns = vec![vec![0.0; samples]; all.len()];
             for k in 0..samples {
-                let mut near = vec![(0, 1.0)];
-                for (axis, knots) in axes.iter().zip(&knots) {
-                    let (place, part) = between(knots, axis.values(log)[k]);
-                    let beside = |&(cell, weight): &(usize, f64)| {
-                        let cell = cell * knots.len() + place;
-                        [(cell, weight * (1.0 - part)), (cell + 1, weight * part)]
-                    };
-                    near = near.iter().flat_map(beside).collect();
-                }
-                for (cell, weight) in near {
+                for (cell, weight) in near(&axes, &knots, log, k) {
                     columns[cell][k] = weight;
                 }
-                if let Some(velocity) = jumps {
-                    columns[cells][k] = velocity.values(log)[k].signum();
+                if let Some(velocity) = velocity {
+                    let sign = velocity.values(log)[k].signum();
+                    let others = axes.len() - 1;
+                    for (cell, weight) in near(&axes[..others], &knots[..others], log, k) {
+                        columns[cells + cell][k] = weight * sign;
+                    }
                 }
             }
             for (all, column) in all.iter_mut().zip(&columns) {
@@ -108,12 +103,25 @@ impl Search<'_> {
                 all.extend_from_slice(&filtered);
             }
         }
-        let lengths: Vec<usize> = knots.iter().map(Vec::len).collect();
         Some(Curve {
             columns: all,
-            bends: bends(&lengths),
+            bends,
         })
     }
+}
+
+/// Cells of a grid around a sample, with the weight of each.
+fn near(axes: &[Axis], knots: &[Vec<f64>], log: &Prepared, sample: usize) -> Vec<(usize, f64)> {
+    let mut near = vec![(0, 1.0)];
+    for (axis, knots) in axes.iter().zip(knots) {
+        let (place, part) = between(knots, axis.values(log)[sample]);
+        let beside = |&(cell, weight): &(usize, f64)| {
+            let cell = cell * knots.len() + place;
+            [(cell, weight * (1.0 - part)), (cell + 1, weight * part)]
+        };
+        near = near.iter().flat_map(beside).collect();
+    }
+    near
 }
 
 /// Cells of three knots in a row along an axis of a grid, whose last axis runs fastest.

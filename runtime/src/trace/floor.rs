@@ -6,9 +6,10 @@
 use super::away::LEAST_LEFT;
 use super::curve::{Curve, STIFFNESS, fitted};
 use super::periodic::laps;
+use super::pulses;
+use super::quantity::Quantity;
 use super::raw::{above, mean_square};
 use super::search::{Search, State};
-use super::whereabouts::Quantity;
 use crate::identify::away_from_turns;
 use crate::signal::resample::whole_steps;
 
@@ -66,6 +67,9 @@ pub struct Floor {
     /// What the model leaves of samples away from the joint's turns, beyond what noise of the positions makes, root mean square, where the
     /// motion repeats; none where next to none are.
     pub left: Option<f64>,
+    /// Share of the power of the model's residual that its largest twentieth of rows has, away from the joint's turns, where the motion does not
+    /// repeat; noise has some 28 %.
+    pub pulses: Option<f64>,
 }
 
 impl Floor {
@@ -81,6 +85,7 @@ impl Floor {
             std: 0.5 * variance.sqrt() / rms.max(f64::MIN_POSITIVE),
             from,
             left: None,
+            pulses: None,
         }
     }
 
@@ -118,6 +123,23 @@ impl Floor {
     pub fn exceeded(&self) -> Option<f64> {
         self.times().filter(|times| *times > BEYOND)
     }
+
+    /// The share of the residual's power in its largest twentieth of rows, where that is too much for noise: more than 60 %.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let traced = Trace::new(vec![&candidate]).run(&arm, &[measure(0.0)], &mut |_| ())?;
+    /// assert_eq!(traced.noise_floor[0].pulsed(), None);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub fn pulsed(&self) -> Option<f64> {
+        self.pulses.filter(|share| *share > pulses::MOST)
+    }
 }
 
 impl Search<'_> {
@@ -151,7 +173,13 @@ impl Search<'_> {
             let above = above[joint].min(self.declared_above[joint]);
             let parts = self.left_by_curves(&state.residuals[joint], joint);
             let parts: Vec<f64> = parts.into_iter().map(|part| part + above).collect();
-            Floor::of_parts(&parts, FloorFrom::Curves)
+            let residuals = self
+                .away(state)
+                .map_or(&state.residuals, |away| &away.residuals);
+            Floor {
+                pulses: Some(pulses::share_of_largest(&residuals[joint])),
+                ..Floor::of_parts(&parts, FloorFrom::Curves)
+            }
         };
         (0..self.arm.dof()).map(of_joint).collect()
     }

@@ -228,7 +228,10 @@ impl<'a> Trace<'a> {
         let values = search.told(&state);
         let is_named = earlier.is_some() || state.accepted.iter().any(|effect| !effect.is_small);
         // Of a quiet arm a model without a finding may leave more than noise all the same.
-        let is_beyond = |joint: &usize| !is_named && values.floor[*joint].exceeded().is_some();
+        let is_beyond = |joint: &usize| {
+            let floor = &values.floor[*joint];
+            !is_named && (floor.exceeded().is_some() || floor.pulsed().is_some())
+        };
         let is_told = |joint: &usize| {
             after[*joint].is_material() || of_terms.contains(joint) || is_beyond(joint)
         };
@@ -236,7 +239,7 @@ impl<'a> Trace<'a> {
             let is_asked = |joint: &usize| !is_named || state.leaves_most(*joint);
             search.unknown_functions(&state, &is_told, &is_asked)
         } else {
-            search.whereabouts(&state, (0..after.len()).filter(is_told).collect())
+            search.whereabouts(&state, (0..after.len()).filter(is_told).collect(), &is_told)
         };
         let any_beyond = (0..after.len()).any(|joint| is_beyond(&joint))
             || left.iter().any(|one| !is_told(&one.joint));
@@ -291,7 +294,8 @@ impl Search<'_> {
         let mut settled = BTreeSet::new();
         let mut asked_again: Option<AskedAgain> = None;
         while state.accepted.len() < most {
-            let round = state.accepted.len() + 1;
+            // Effects of an earlier trace were found in rounds, too.
+            let round = MOST_EFFECTS - most + state.accepted.len() + 1;
             let words = format!("round {round}: {} candidates", candidates.len());
             let judged = &mut |done| progress(&Stage::part(&words, done));
             let said = tried.len();

@@ -23,11 +23,16 @@ pub(super) const SIGNIFICANCE: f64 = 1e-3;
 /// The same of what takes as much off a joint's error that was not fitted, in every fold, and as much off the raw one, percent: a short log
 /// has few blocks, whose score may be no more beyond chance than that. Of 35 clean simulated arms whose zeros wander a law of no more than
 /// noise took at most a third off the one and an eighth off the other, and had a score that is certain among so many tests.
-const LARGE: [Large; 2] = [
+const LARGE: [Large; 3] = [
     Large {
         held_out_percent: 50.0,
         raw_percent: 20.0,
         significance: 1.0,
+    },
+    Large {
+        held_out_percent: 20.0,
+        raw_percent: 20.0,
+        significance: 0.3,
     },
     Large {
         held_out_percent: 20.0,
@@ -360,12 +365,14 @@ mod tests {
         assert!(!is_chance(&of(0.02, 72.0, 45.0, 5), &[1]));
         assert!(!is_chance(&of(0.66, 72.0, 45.0, 5), &[1]));
         assert!(!is_chance(&of(2e-3, 22.0, 8.0, 5), &[1]));
+        assert!(!is_chance(&of(0.2, 22.0, 21.0, 5), &[1]));
         for chance in [
             of(2e-3, 18.0, 8.0, 5),
             of(2e-3, 30.0, 25.0, 4),
             of(0.02, 72.0, 45.0, 4),
             of(0.02, 72.0, 7.0, 5),
-            of(0.02, 30.0, 25.0, 5),
+            of(0.02, 30.0, 18.0, 5),
+            of(0.4, 30.0, 25.0, 5),
             of(1.0, 72.0, 45.0, 5),
         ] {
             assert!(is_chance(&chance, &[1]), "{chance:?}");

@@ -55,6 +55,8 @@ mod normal;
 mod periodic;
 mod projected;
 mod prune;
+mod pulses;
+mod quantity;
 mod raw;
 mod refine;
 mod residual;
@@ -78,6 +80,7 @@ mod whereabouts;
 
 pub use floor::{Floor, FloorFrom};
 pub use forward::Trace;
+pub use quantity::Quantity;
 pub use search::MOST_EFFECTS;
 pub use stage::Stage;
 pub use step::Step;
@@ -85,4 +88,4 @@ pub use structure::Structure;
 pub use verdict::{
     Alternative, Evidence, Finding, FoundParameter, Outcome, Refusal, Tried, Verdict,
 };
-pub use whereabouts::{Quantity, Share, TermShare, Whereabouts};
+pub use whereabouts::{Share, TermShare, Whereabouts};

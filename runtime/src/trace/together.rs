@@ -1,9 +1,9 @@
 //! Laws that are together what none of them is.
 
 use super::curve::{Curve, fitted};
+use super::quantity::Quantity;
 use super::raw::mean_square;
 use super::search::{Accepted, Search, State};
-use super::whereabouts::Quantity;
 use crate::columns::Entry;
 
 /// Values between which a curve is straight that a term of a series follows: a wave of more than three periods over the travel of a joint does not,

@@ -90,6 +90,38 @@ pub struct Tried {
     pub refusals: Vec<Refusal>,
 }
 
+impl Tried {
+    /// Whether it takes a fifth or more off both the held-out and the raw error of its joints, where either is the most of them: too much
+    /// for a law that is not there, whatever its score.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let traced = Trace::new(vec![&candidate]).run(&arm, &[measure(0.7)], &mut |_| ())?;
+    /// assert!(traced.tried[0].takes_much());
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub fn takes_much(&self) -> bool {
+        let Evidence {
+            held_out_percent,
+            raw_percent,
+            ..
+        } = &self.evidence;
+        let most = [held_out_percent, raw_percent].map(|all| self.of_its_joints(all));
+        most.iter().all(|percent| *percent >= MUCH_PERCENT)
+    }
+
+    /// The most of its joints.
+    fn of_its_joints(&self, percents: &[f64]) -> f64 {
+        let joints = self.joints.iter().map(|joint| percents[*joint]);
+        joints.fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
 /// A candidate that the logs cannot tell from an accepted one, or nearly so.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -176,31 +208,27 @@ impl fmt::Display for Outcome {
 /// From which share of a joint's error on, percent, a law that may not be named says that something is missing all the same.
 pub(super) const DOUBT_PERCENT: f64 = 10.0;
 
-/// The same of a law that is no better in every fold, as a gap is not that the joint crosses in some of them: what takes so much off the error
-/// of all folds together is more than what a fit has by being a fit.
-const UNEVEN_PERCENT: f64 = 20.0;
+/// The same of a law that is no better in every fold, as a gap is not that the joint crosses in some of them, or whose score may be chance, as a
+/// short log has few blocks: what takes so much off both errors of all folds together is more than what a fit has by being a fit.
+const MUCH_PERCENT: f64 = 20.0;
 
 /// See [`Verdict::doubtful`].
 pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
     let last = tried.iter().map(|tried| tried.round).max()?;
-    let of_joints = |tried: &Tried, percents: &[f64]| {
-        let joints = tried.joints.iter().map(|joint| percents[*joint]);
-        joints.fold(f64::NEG_INFINITY, f64::max)
-    };
-    let most = |tried: &Tried| of_joints(tried, &tried.evidence.raw_percent);
+    let most = |tried: &Tried| tried.of_its_joints(&tried.evidence.raw_percent);
     let takes_much = |tried: &Tried| {
-        if tried.refusals.contains(&Refusal::HeldOut) {
-            let held_out = of_joints(tried, &tried.evidence.held_out_percent);
-            most(tried).min(held_out) >= UNEVEN_PERCENT
+        let refused = |refusal| tried.refusals.contains(&refusal);
+        if refused(Refusal::HeldOut) || refused(Refusal::Chance) {
+            tried.takes_much()
         } else {
             most(tried) >= DOUBT_PERCENT
         }
     };
     let is_of_law = |refusal: &Refusal| {
-        use Refusal::{EndOfRange, HeldOut, Sign, Undetermined, Unsteady};
+        use Refusal::{Chance, EndOfRange, HeldOut, Sign, Undetermined, Unsteady};
         matches!(
             refusal,
-            EndOfRange | HeldOut | Sign | Undetermined | Unsteady
+            Chance | EndOfRange | HeldOut | Sign | Undetermined | Unsteady
         )
     };
     let doubted = tried.iter().filter(|tried| {

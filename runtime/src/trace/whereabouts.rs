@@ -6,11 +6,11 @@
 //! overlap, as quantities of one motion move together.
 
 use crate::columns::Entry;
-use crate::signal::Prepared;
 
 use super::curve::{Curve, STIFFNESS};
 use super::gram::{Gram, HeldOut};
 use super::normal::Smooth;
+use super::quantity::Quantity;
 use super::raw::mean_square;
 use super::search::{Accepted, Search, State};
 use super::step::{self, Step};
@@ -21,100 +21,6 @@ const MOST_TERMS: usize = 3;
 
 /// How many times as much a term of the equations has to explain as an effect for the name of the effect to be wrong.
 const MORE_THAN_AN_EFFECT: f64 = 1.5;
-
-/// What a torque may follow from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Quantity {
-    /// Position of a joint, from 0.
-    Position(usize),
-    /// Velocity of a joint; its curve may jump where the joint turns round.
-    Velocity(usize),
-    /// Acceleration of a joint.
-    Acceleration(usize),
-    /// What the transmission of a joint carries: torque of the rigid body.
-    Load(usize),
-    /// Position and velocity of a joint at once, one surface over both.
-    Motion(usize),
-    /// Positions of a joint and of another one at once.
-    Positions(usize, usize),
-    /// Velocities of a joint and of another one at once; the surface may jump where the first turns round.
-    Velocities(usize, usize),
-    /// Time since the start of a log.
-    Time,
-}
-
-impl Quantity {
-    /// Name in JSON.
-    ///
-    /// # Examples
-    /// ```
-    /// assert_eq!(robot_model::trace::Quantity::Time.name(), "time");
-    /// ```
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Position(_) => "position",
-            Self::Velocity(_) => "velocity",
-            Self::Acceleration(_) => "acceleration",
-            Self::Load(_) => "load",
-            Self::Motion(_) => "position-and-velocity",
-            Self::Positions(..) => "positions",
-            Self::Velocities(..) => "velocities",
-            Self::Time => "time",
-        }
-    }
-
-    /// The joints, from 0; none of time.
-    ///
-    /// # Examples
-    /// ```
-    /// use robot_model::trace::Quantity;
-    /// assert_eq!(Quantity::Velocity(2).joints(), [2]);
-    /// assert_eq!(Quantity::Positions(2, 0).joints(), [2, 0]);
-    /// assert!(Quantity::Time.joints().is_empty());
-    /// ```
-    #[must_use]
-    pub fn joints(self) -> Vec<usize> {
-        match self {
-            Self::Position(joint)
-            | Self::Velocity(joint)
-            | Self::Acceleration(joint)
-            | Self::Load(joint)
-            | Self::Motion(joint) => vec![joint],
-            Self::Positions(joint, other) | Self::Velocities(joint, other) => vec![joint, other],
-            Self::Time => Vec::new(),
-        }
-    }
-
-    /// Whether it is two quantities at once.
-    ///
-    /// # Examples
-    /// ```
-    /// use robot_model::trace::Quantity;
-    /// assert!(Quantity::Motion(0).is_surface() && !Quantity::Load(0).is_surface());
-    /// ```
-    #[must_use]
-    pub const fn is_surface(self) -> bool {
-        matches!(
-            self,
-            Self::Motion(_) | Self::Positions(..) | Self::Velocities(..)
-        )
-    }
-
-    pub(super) fn values(self, log: &Prepared) -> &[f64] {
-        let motion = &log.motion;
-        match self {
-            Self::Position(joint) | Self::Motion(joint) | Self::Positions(joint, _) => {
-                &motion.wide.q[joint]
-            }
-            Self::Velocity(joint) | Self::Velocities(joint, _) => &motion.wide.dq[joint],
-            Self::Acceleration(joint) => &motion.smooth.ddq[joint],
-            Self::Load(joint) => &motion.rigid_torque[joint],
-            Self::Time => &motion.time,
-        }
-    }
-}
 
 /// How much of a joint's residual follows from one quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -182,8 +88,13 @@ impl Search<'_> {
         joints
     }
 
-    /// Of some joints.
-    pub(super) fn whereabouts(&self, state: &State, joints: Vec<usize>) -> Vec<Whereabouts> {
+    /// Of some joints; of those that are asked in full by what other joints do at once, too.
+    pub(super) fn whereabouts(
+        &self,
+        state: &State,
+        joints: Vec<usize>,
+        is_asked_in_full: &dyn Fn(&usize) -> bool,
+    ) -> Vec<Whereabouts> {
         if joints.is_empty() {
             return Vec::new();
         }
@@ -218,7 +129,9 @@ impl Search<'_> {
         let level = self.level();
         let steps = self.steps(state);
         let of_joint = |joint: usize| {
+            let more = is_asked_in_full(&joint).then(|| self.more_pairs(joint));
             let quantities = self.quantities(joint).chain(self.pairs(joint));
+            let quantities = quantities.chain(more.into_iter().flatten());
             let shares = quantities.filter_map(|of| {
                 let Curve { columns, bends } = self.curve(of)?;
                 let with = beside(joint, columns);
@@ -316,6 +229,23 @@ impl Search<'_> {
         })
     }
 
+    /// Dry friction that changes with another joint's position or in time, and what two other joints do at once.
+    fn more_pairs(&self, joint: usize) -> impl Iterator<Item = Quantity> {
+        let others = move || (0..self.arm.dof()).filter(move |&other| other != joint);
+        let own = others().map(move |other| Quantity::VelocityAndPosition(joint, other));
+        let of_others = others().flat_map(move |one| {
+            let second = others().filter(move |&other| other > one);
+            second.flat_map(move |other| {
+                [
+                    Quantity::Positions(one, other),
+                    Quantity::Velocities(one, other),
+                ]
+            })
+        });
+        let in_time = std::iter::once(Quantity::VelocityAndTime(joint));
+        in_time.chain(own).chain(of_others)
+    }
+
     /// Whereabouts on the joints that are told, and on others that are asked if a function of the motion has so large a share in them that it
     /// would take as much off their raw errors as makes a doubt, beyond what time or a constant has: a law that no structure shows, as noise is
     /// correlated over as long.
@@ -335,7 +265,7 @@ impl Search<'_> {
             is_told(joint) || (is_asked(joint) && takes(*joint, 1.0) >= DOUBT_PERCENT)
         };
         let joints = (0..self.arm.dof()).filter(may).collect();
-        let mut found = self.whereabouts(state, joints);
+        let mut found = self.whereabouts(state, joints, is_told);
         found.retain(|one| {
             let most = |is: &dyn Fn(Quantity) -> bool| {
                 let shares = one.shares.iter().filter(|share| is(share.of));
