@@ -67,8 +67,8 @@ pub struct Floor {
     /// What the model leaves of samples away from the joint's turns, beyond what noise of the positions makes, root mean square, where the
     /// motion repeats; none where next to none are.
     pub left: Option<f64>,
-    /// Share of the power of the model's residual that its largest twentieth of rows has, away from the joint's turns, where the motion does not
-    /// repeat; noise has some 28 %.
+    /// Share of the power of the model's residual that its largest twentieth of rows has, where the motion does not repeat; noise has some 28 %.
+    /// Away from the joint's turns: none where the arm has no joint with dry friction, or where next to no rows are left.
     pub pulses: Option<f64>,
 }
 
@@ -173,11 +173,11 @@ impl Search<'_> {
             let above = above[joint].min(self.declared_above[joint]);
             let parts = self.left_by_curves(&state.residuals[joint], joint);
             let parts: Vec<f64> = parts.into_iter().map(|part| part + above).collect();
-            let residuals = self
-                .away(state)
-                .map_or(&state.residuals, |away| &away.residuals);
+            // Dry friction leaves pulses where joints turn round.
+            let away = self.away(state);
+            let away = away.filter(|away| away.mean_square(joint).is_some());
             Floor {
-                pulses: Some(pulses::share_of_largest(&residuals[joint])),
+                pulses: away.map(|away| pulses::share_of_largest(&away.residuals[joint])),
                 ..Floor::of_parts(&parts, FloorFrom::Curves)
             }
         };
