@@ -124,7 +124,7 @@ impl Floor {
         self.times().filter(|times| *times > BEYOND)
     }
 
-    /// The share of the residual's power in its largest twentieth of rows, where that is too much for noise: more than 60 %.
+    /// The share of the residual's power in its largest twentieth of rows, where that is too much for noise: more than 90 %.
     ///
     /// # Examples
     /// ```

@@ -4,9 +4,9 @@
 /// Rows with the largest errors, a share of all.
 pub(super) const LARGEST: f64 = 0.05;
 
-/// Noise of any color has 28 % of its power in its largest twentieth (normal distribution), and noise whose size follows the motion some
-/// more; beyond this share it is no noise.
-pub(super) const MOST: f64 = 0.6;
+/// Noise of any color has 28 % of its power in its largest twentieth (normal distribution), what creeps beside wide reversals up to three
+/// quarters; beyond this share it is neither.
+pub(super) const MOST: f64 = 0.9;
 
 /// Share of the power that the largest rows have; `residual` is 0 in rows that do not count.
 pub(super) fn share_of_largest(residual: &[f64]) -> f64 {

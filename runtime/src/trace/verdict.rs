@@ -91,8 +91,7 @@ pub struct Tried {
 }
 
 impl Tried {
-    /// Whether it takes a fifth or more off both the held-out and the raw error of its joints, where either is the most of them: too much
-    /// for a law that is not there, whatever its score.
+    /// Whether it takes a fifth or more off both the held-out and the raw error of its joints, where either is the most of them.
     ///
     /// # Examples
     /// ```
@@ -208,8 +207,8 @@ impl fmt::Display for Outcome {
 /// From which share of a joint's error on, percent, a law that may not be named says that something is missing all the same.
 pub(super) const DOUBT_PERCENT: f64 = 10.0;
 
-/// The same of a law that is no better in every fold, as a gap is not that the joint crosses in some of them, or whose score may be chance, as a
-/// short log has few blocks: what takes so much off both errors of all folds together is more than what a fit has by being a fit.
+/// The same of a law that is no better in every fold, as a gap is not that the joint crosses in some of them: what takes so much off both errors
+/// of all folds together is more than what a fit has by being a fit. A zero that wanders takes as much, by an offset that is chance.
 const MUCH_PERCENT: f64 = 20.0;
 
 /// See [`Verdict::doubtful`].
@@ -217,18 +216,17 @@ pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
     let last = tried.iter().map(|tried| tried.round).max()?;
     let most = |tried: &Tried| tried.of_its_joints(&tried.evidence.raw_percent);
     let takes_much = |tried: &Tried| {
-        let refused = |refusal| tried.refusals.contains(&refusal);
-        if refused(Refusal::HeldOut) || refused(Refusal::Chance) {
+        if tried.refusals.contains(&Refusal::HeldOut) {
             tried.takes_much()
         } else {
             most(tried) >= DOUBT_PERCENT
         }
     };
     let is_of_law = |refusal: &Refusal| {
-        use Refusal::{Chance, EndOfRange, HeldOut, Sign, Undetermined, Unsteady};
+        use Refusal::{EndOfRange, HeldOut, Sign, Undetermined, Unsteady};
         matches!(
             refusal,
-            Chance | EndOfRange | HeldOut | Sign | Undetermined | Unsteady
+            EndOfRange | HeldOut | Sign | Undetermined | Unsteady
         )
     };
     let doubted = tried.iter().filter(|tried| {
