@@ -51,6 +51,7 @@ mod named;
 mod new;
 mod output_error;
 mod outputs;
+mod own_effects;
 mod page;
 mod page_of_identify;
 mod page_of_trace;
