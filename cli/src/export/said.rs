@@ -227,8 +227,8 @@ pub(super) fn rotors(model: &Model, value: &dyn Fn(usize, usize) -> f64) -> Opti
     let rotors: Vec<String> = rotors.collect();
     (!rotors.is_empty()).then(|| {
         format!(
-            "the inertia of rotors, for which a URDF has no place, is in no link; give it to your simulator as armature of the joints (where the log determines a rotor only in a sum with its link, only the \
-             sum is right): {}",
+            "the inertia of rotors, for which a URDF has no place, is in no link; give it to your simulator as armature of the joints: {}; where a log \
+             determines a rotor only in a sum with its link, only the sum is right",
             rotors.join(", ")
         )
     })

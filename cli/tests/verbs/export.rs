@@ -147,7 +147,7 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
     let rotor = value(&folder, "lower.motor_inertia.ia");
     assert!(
         said.contains(&format!(
-            "armature of the joints: `lower` {rotor:.4} kg m^2\n"
+            "armature of the joints: `lower` {rotor:.4} kg m^2; where a log determines"
         )),
         "{said}"
     );
