@@ -187,7 +187,7 @@ impl<'a> Evidence<'a> {
             page.text(
                 "Is the residual noise, or does the spec lack an effect? This command finds out:",
             );
-            page.preformatted(next);
+            page.commands(next);
         }
     }
 

@@ -21,7 +21,7 @@ pub(crate) fn again(page: &mut Page, inputs: &[PathBuf]) -> Result<(), Error> {
         "To make this page again from the same files, with robot-model {}:",
         env!("CARGO_PKG_VERSION")
     ));
-    page.preformatted(&invocation());
+    page.commands(&invocation());
     let row = |path: &PathBuf| -> Result<Vec<String>, Error> {
         let name = path.display().to_string();
         Ok(match fingerprint(path)? {

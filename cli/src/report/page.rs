@@ -83,6 +83,16 @@ impl Page {
         .expect(PUT);
     }
 
+    /// Commands, a line each, which wrap where the page is narrow; they are copied as they were.
+    pub(crate) fn commands(&mut self, commands: &str) {
+        writeln!(
+            self.body,
+            "<pre class=\"commands\">{}</pre>",
+            escaped(commands)
+        )
+        .expect(PUT);
+    }
+
     /// A table; a click on a head sorts it. Cells that begin with a number stand to the right.
     pub(crate) fn table(&mut self, caption: &str, head: &[&str], rows: &[Vec<String>]) {
         self.rows(caption, head, rows, false);

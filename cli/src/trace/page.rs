@@ -42,7 +42,7 @@ pub(super) fn page(
     if let Some(next) = next {
         page.part("Next");
         page.text(&next.what);
-        page.preformatted(&next.commands.join("\n"));
+        page.commands(&next.commands.join("\n"));
     }
     page.section(if closed.changed.is_some() {
         "Errors before and after"
@@ -140,7 +140,7 @@ fn open_questions(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
         }
         page.list(&lines);
         if !commands.is_empty() {
-            page.preformatted(&commands.join("\n"));
+            page.commands(&commands.join("\n"));
         }
     }
     let left = structure_left(closed).into_iter();
