@@ -38,7 +38,7 @@ mod tests {
         for place in [300, 1100, 1900, 3100] {
             noise[place..place + 20]
                 .iter_mut()
-                .for_each(|value| *value += 8.0);
+                .for_each(|value| *value += 20.0);
         }
         assert!(share_of_largest(&noise) > MOST);
         // Rows that do not count.
