@@ -88,7 +88,9 @@ fn the_next_command_of_a_page_is_one_that_can_be_given() {
         let html = folder.read("page/index.html");
         let rest = html.split_once("<h3>Next</h3>").expect("a next command").1;
         let (command, _) = rest.split_once("</pre>").expect("an end");
-        let (_, commands) = command.split_once("<pre class=\"commands\">").expect("commands");
+        let (_, commands) = command
+            .split_once("<pre class=\"commands\">")
+            .expect("commands");
         let first = commands.lines().next().expect("a command").to_owned();
         // It stands above the figures.
         assert!(html.find("<h3>Next</h3>") < html.find("<svg"), "{html}");

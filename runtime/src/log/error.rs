@@ -8,7 +8,7 @@ use thiserror::Error;
 pub use place::TextPlace;
 pub use text::TextError;
 
-use super::words::{columns, field, hertz, in_unit, joints, list, plural, way_out};
+use super::words::{columns, field, fields, hertz, in_unit, joints, list, plural, way_out};
 
 /// Why a log cannot be used. `source_name` is the file, `line` counts from 1, with all that stands above a header.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -233,12 +233,7 @@ pub enum LogError {
         source_name: String,
     },
     /// A row that is longer or shorter than the header.
-    #[error(
-        "{source_name}:{line}: the {}row has {found} field{}, the header has {expected}; {}",
-        if *.is_cut { "last " } else { "" },
-        plural(*.found),
-        if *.is_cut { "the file may be cut short: remove the row" } else { "give every row one field per column, or remove the row" }
-    )]
+    #[error("{source_name}:{line}: {}", fields(*.found, *.expected, *.is_cut))]
     ColumnCount {
         /// The file.
         source_name: String,

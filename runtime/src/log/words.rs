@@ -37,6 +37,19 @@ pub(super) fn field(text: &str) -> String {
     shown
 }
 
+/// What is said of a row with more or fewer fields than the header; one that is cut is the last.
+pub(super) fn fields(found: usize, expected: usize, is_cut: bool) -> String {
+    let (last, way_out) = if is_cut {
+        ("last ", "the file may be cut short: remove the row")
+    } else {
+        ("", "give every row one field per column, or remove the row")
+    };
+    format!(
+        "the {last}row has {found} field{}, the header has {expected}; {way_out}",
+        plural(found)
+    )
+}
+
 /// What to do with a field that is no number.
 pub(super) fn way_out(text: &str) -> &'static str {
     match text.replace(',', ".").parse::<f64>() {
