@@ -42,7 +42,7 @@ mod tests {
         }
         assert!(share_of_largest(&noise) > MOST);
         // Rows that do not count.
-        noise.extend([0.0; 4000]);
+        noise.extend(std::iter::repeat_n(0.0, 4000));
         assert!(share_of_largest(&noise) > MOST);
         assert!(share_of_largest(&[]) < MOST);
     }
