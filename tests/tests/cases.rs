@@ -121,10 +121,14 @@ fn nothing_is_named_on_arms_that_miss_nothing() {
 /// Arms of so many joints take seconds each; `cargo bench --bench cases` traces all.
 const FEW_JOINTS: usize = 3;
 
+/// How many times the achievable error may be left in the median case.
+const MOST_OVER: f64 = 1.10;
+
 /// Their effects are named on their joints and nothing else is, faults of logs are told as such, and what is no effect gets no name; on a log
 /// that was not fitted the error is down at what is achievable.
 #[test]
 fn arms_of_few_joints_have_the_verdicts_of_their_keys() {
+    let mut all_over = Vec::new();
     for case in cases::open() {
         if case.dof > FEW_JOINTS {
             continue;
@@ -142,8 +146,11 @@ fn arms_of_few_joints_have_the_verdicts_of_their_keys() {
         );
         if case.key.expected_outcome == "explained" {
             let errors = closed.after().validation.as_ref().expect("a log for it");
-            let over = case.key.over_achievable(&errors.rmse);
-            assert!(over < 1.35, "{}: {over} times the achievable", case.name);
+            all_over.push(case.key.over_achievable(&errors.rmse));
         }
+    }
+    all_over.sort_by(f64::total_cmp);
+    if let Some(median) = all_over.get(all_over.len() / 2) {
+        assert!(*median <= MOST_OVER, "{all_over:?}");
     }
 }

@@ -13,8 +13,8 @@ const MOST: usize = 5;
 /// Scores beyond this are told by their power of ten.
 const MOST_SCORE: f64 = 1e6;
 
-const HEAD: &str = "Significant candidates, best first in each round; `held-out` and `raw`: largest fall of a joint's error on folds not fitted \
-     and on raw samples";
+const HEAD: &str = "Candidates that are significant or take a fifth off both errors, best first in each round; `held-out` and `raw`: largest \
+     fall of a joint's error on folds not fitted and on raw samples";
 
 const PUT: &str = "a string takes all";
 
@@ -34,7 +34,7 @@ pub(super) fn rows(
     told.map(|one| row(closed, one)).collect()
 }
 
-/// A table of what explained more than chance, round by round; nothing where none did.
+/// A table of what explained more than chance or takes much off, round by round; nothing where none did.
 pub(super) fn tried(closed: &Loop) -> String {
     let mut rows = rows(closed, MOST, &|one| {
         one.takes_much() || !one.refusals.contains(&Refusal::Chance)

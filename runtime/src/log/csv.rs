@@ -385,6 +385,7 @@ fn not_text(source: &str, line: u64, field: &[u8], byte: u8) -> LogError {
         line,
         byte,
         text: words::field(&String::from_utf8_lossy(field)),
+        is_binary: byte >= 0x80 && field.iter().any(|byte| is_control(*byte)),
     }
     .into()
 }

@@ -330,6 +330,8 @@ fn files_that_are_no_csv_are_told() {
         with(b"time,q1,tau1\n0,\xe9,0\n")
             .starts_with("monday.csv:2: byte 0xe9 in `\u{fffd}` is not UTF-8 text")
     );
+    // A backslash is a letter of any encoding.
+    assert!(with(b"time,q1,tau1\n0,\xe9\\x,0\n").contains("is not UTF-8 text"));
     assert_eq!(
         with(b"time,q1,tau1\n0,\xe9\x03\xf5,0\n"),
         "monday.csv:2: byte 0xe9 begins binary data: the file is damaged, or none of text; copy it again, or remove the rows from here on"

@@ -2,7 +2,7 @@
 //! that does not repeat has no period to compare them with.
 
 /// Rows with the largest errors, a share of all.
-pub(super) const LARGEST: f64 = 0.05;
+const LARGEST: f64 = 0.05;
 
 /// Noise of any color has 28 % of its power in its largest twentieth (normal distribution), what creeps beside wide reversals up to three
 /// quarters; beyond this share it is neither.

@@ -5,9 +5,7 @@ use thiserror::Error;
 use super::super::words::{field, list};
 
 /// What a byte that is no text stands in, and how the file becomes a text that is read.
-fn not_text(source_name: &str, text: &str, byte: u8) -> String {
-    // What is read as UTF-8 has unknown bytes as U+FFFD, and a message has control characters with a backslash.
-    let is_binary = byte >= 0x80 && text.contains('\\');
+fn not_text(source_name: &str, text: &str, byte: u8, is_binary: bool) -> String {
     if is_binary {
         return format!(
             "byte 0x{byte:02x} begins binary data: the file is damaged, or none of text; copy it again, or remove the rows from here on"
@@ -94,7 +92,7 @@ pub enum TextError {
     /// Bytes that are no text.
     #[error(
         "{source_name}:{line}: {}",
-        not_text(source_name, text, *.byte)
+        not_text(source_name, text, *.byte, *.is_binary)
     )]
     NotText {
         /// The file.
@@ -105,6 +103,8 @@ pub enum TextError {
         byte: u8,
         /// The field that has it.
         text: String,
+        /// Whether the field has control characters beside it, as text in no encoding has.
+        is_binary: bool,
     },
     /// A line of words below the names that are no units of their columns.
     #[error(
