@@ -1,0 +1,33 @@
+//! What several crates hold together: laws, an independent oracle, real logs, snapshots. One program, as each has the workspace's libraries in it.
+
+mod acts;
+mod baked;
+mod base;
+mod book;
+mod c;
+mod cases;
+mod control;
+mod control_shows;
+mod dependencies;
+mod derive;
+mod derived_memory;
+mod effects;
+mod exported;
+mod filtered;
+mod firmware;
+mod latex;
+mod laws;
+mod mechanics;
+mod memory;
+mod operations;
+mod oracle;
+mod outside;
+mod properties;
+mod public;
+mod real_data;
+mod real_logs_by_verb;
+mod recovery;
+mod scalars;
+mod seeds;
+mod snapshots;
+mod urdf;
