@@ -30,9 +30,9 @@ const LARGE: [Large; 3] = [
         significance: 1.0,
     },
     Large {
-        held_out_percent: 30.0,
+        held_out_percent: 20.0,
         raw_percent: 20.0,
-        significance: 0.1,
+        significance: 0.3,
     },
     Large {
         held_out_percent: 20.0,
@@ -365,15 +365,15 @@ mod tests {
         assert!(!is_chance(&of(0.02, 72.0, 45.0, 5), &[1]));
         assert!(!is_chance(&of(0.66, 72.0, 45.0, 5), &[1]));
         assert!(!is_chance(&of(2e-3, 22.0, 8.0, 5), &[1]));
-        assert!(!is_chance(&of(0.02, 32.0, 21.0, 5), &[1]));
+        assert!(!is_chance(&of(0.2, 22.0, 21.0, 5), &[1]));
         for chance in [
             of(2e-3, 18.0, 8.0, 5),
             of(2e-3, 30.0, 25.0, 4),
             of(0.02, 72.0, 45.0, 4),
             of(0.02, 72.0, 7.0, 5),
             of(0.02, 32.0, 18.0, 5),
-            of(0.02, 28.0, 25.0, 5),
-            of(0.2, 32.0, 25.0, 5),
+            of(0.02, 18.0, 25.0, 5),
+            of(0.4, 32.0, 25.0, 5),
             of(1.0, 72.0, 45.0, 5),
         ] {
             assert!(is_chance(&chance, &[1]), "{chance:?}");
