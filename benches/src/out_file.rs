@@ -23,7 +23,10 @@ impl OutFile {
         if path.is_dir() {
             return Err(failed("write", path, "it is a folder"));
         }
-        let folder = path.parent().unwrap_or(Path::new(".")).to_owned();
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).to_owned();
         if !folder.is_dir() {
             let reason = format!("there is no folder `{}`; make it first", folder.display());
             return Err(failed("write", path, reason));

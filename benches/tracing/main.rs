@@ -15,6 +15,7 @@ mod figures;
 mod judge;
 mod keep;
 mod motion;
+mod rows;
 mod size;
 mod table;
 
@@ -22,7 +23,6 @@ use std::fmt::Display;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::{ArgAction, Parser};
@@ -32,6 +32,7 @@ use arms::ARMS;
 use catalogue::ALL;
 use experiment::Case;
 use judge::Row;
+use rows::{Rows, read};
 
 /// Put effects into simulated arms, and trace them.
 #[derive(Debug, Parser)]
@@ -66,7 +67,7 @@ struct Options {
     /// Draw detection over sizes, and the methods beside each other, as SVG files of a folder there.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
-    /// Write every experiment's row there, as JSON.
+    /// Write every experiment's row there, as JSON, as soon as it is done; experiments whose rows are there already are not run again.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Keep specs and logs of every experiment in a folder there, to look at with `robot-model trace`.
@@ -101,33 +102,20 @@ impl Options {
 fn main() -> ExitCode {
     let options = Options::parse();
     let done = if options.from.is_empty() {
-        Ok(run(&options))
+        run(&options)
     } else {
-        read(&options.from)
+        // Rows of earlier runs, one run after the other.
+        let runs: Result<Vec<_>, _> = options.from.iter().map(|path| read(path)).collect();
+        runs.map(|runs| runs.concat())
     };
     ended(done.and_then(|rows| tell(&options, &rows)))
 }
 
-/// Rows of earlier runs, one run after the other.
-fn read(paths: &[PathBuf]) -> Result<Vec<Row>, String> {
-    let mut rows = Vec::new();
-    for path in paths {
-        let text = std::fs::read_to_string(path).map_err(|error| cannot("read", path, &error))?;
-        let own = serde_json::from_str(&text).map_err(|error| cannot("read", path, &error))?;
-        rows.extend::<Vec<Row>>(own);
-    }
-    Ok(rows)
-}
-
-/// Tables to standard output; rows and figures where they are wanted.
+/// Tables to standard output; figures where they are wanted.
 fn tell(options: &Options, rows: &[Row]) -> Result<(), String> {
     let write = |path: &Path, text: &str| {
         std::fs::write(path, text).map_err(|error| cannot("write", path, &error))
     };
-    if let Some(path) = &options.json {
-        let text = serde_json::to_string_pretty(rows).expect("rows are plain");
-        write(path, &text)?;
-    }
     if let Some(folder) = &options.figures {
         std::fs::create_dir_all(folder).map_err(|error| cannot("make", folder, &error))?;
         write(&folder.join("detection.svg"), &figures::detection(rows))?;
@@ -144,15 +132,16 @@ fn cannot(what: &str, path: &Path, error: &dyn Display) -> String {
 }
 
 /// All experiments, in order.
-fn run(options: &Options) -> Vec<Row> {
+fn run(options: &Options) -> Result<Vec<Row>, String> {
     let cases = options.cases();
-    let (next, rows) = (AtomicUsize::new(0), Mutex::new(Vec::<(usize, Row)>::new()));
+    let rows = Rows::of(options.json.as_deref())?;
+    let next = AtomicUsize::new(0);
+    let mine = || {
+        let number = next.fetch_add(1, Ordering::Relaxed);
+        cases.get(number).map(|case| (number + 1, case))
+    };
     let work = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(case) = cases.get(number) else {
-                return;
-            };
+        while let Some((number, case)) = mine() {
             let label = format!(
                 "{} {} {} % seed {}",
                 case.arm.name,
@@ -160,21 +149,20 @@ fn run(options: &Options) -> Vec<Row> {
                 100.0 * case.share,
                 case.seed
             );
-            let text = match judged(options, case, &format!("{:03} {label}", number + 1)) {
-                Ok(Some(row)) => {
-                    let text = told(&row);
-                    rows.lock().expect("no panic").push((number, row));
-                    text
-                }
+            let row = match rows.row(case) {
+                Some(row) => Ok(Some(row)),
+                None => judged(options, case, &format!("{number:03} {label}")).and_then(|row| {
+                    row.iter().cloned().try_for_each(|row| rows.push(row))?;
+                    Ok(row)
+                }),
+            };
+            let text = match row {
+                Ok(Some(row)) => told(&row),
                 Ok(None) => "not there in this size".to_owned(),
                 Err(error) => format!("failed: {error}"),
             };
-            let _ = writeln!(
-                std::io::stderr(),
-                "[{}/{}] {label}: {text}",
-                number + 1,
-                cases.len()
-            );
+            let of = cases.len();
+            let _ = writeln!(std::io::stderr(), "[{number}/{of}] {label}: {text}");
         }
     };
     std::thread::scope(|scope| {
@@ -182,9 +170,7 @@ fn run(options: &Options) -> Vec<Row> {
             scope.spawn(work);
         }
     });
-    let mut rows = rows.into_inner().expect("no panic");
-    rows.sort_by_key(|(number, _)| *number);
-    rows.into_iter().map(|(_, row)| row).collect()
+    Ok(cases.iter().filter_map(|case| rows.row(case)).collect())
 }
 
 /// One experiment, kept under its name where that is wanted.

@@ -115,7 +115,7 @@ fn a_delay_that_noise_hides_is_in_the_deviations() {
 
 /// The pendulum with a loss in proportion to `v |v|`, but for a ten-thousandth of another law.
 struct Stirring {
-    arm: pendulum::Pendulum,
+    arm: super::pendulum::Pendulum,
     unknowns: Vec<Unknown>,
 }
 
