@@ -277,8 +277,9 @@ fn true_errors(
     let said = |error: &dyn std::fmt::Display| error.to_string();
     let model = load(name, truth).map_err(|error| said(&error))?;
     let arm = InterpretedArm::new(compile_model(&model));
-    let logs = experiment.logs.clone();
-    let [identify, validate] = logs.map(|log| log.with_motion_phase(None));
+    let [identify, validate] = experiment.logs.clone();
+    let period = identify.period();
+    let [identify, validate] = [identify, validate].map(|log| log.with_motion_phase(period));
     let same_band = Identify {
         bands: Some(closed.before.estimate.bands),
         ..Identify::default()
