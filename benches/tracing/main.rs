@@ -19,6 +19,7 @@ mod rows;
 mod size;
 mod table;
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -29,7 +30,7 @@ use clap::{ArgAction, Parser};
 use robot_model_benches::ended;
 
 use arms::ARMS;
-use catalogue::ALL;
+use catalogue::{ALL, Injection};
 use experiment::Case;
 use judge::Row;
 use rows::{Rows, read};
@@ -48,7 +49,7 @@ struct Options {
     #[arg(long, value_delimiter = ',', value_name = "NAME,..")]
     arms: Vec<String>,
     /// What is put in, by name.
-    #[arg(long, value_delimiter = ',', value_name = "KIND,..")]
+    #[arg(long, value_delimiter = ',', value_name = "EFFECT,..")]
     kinds: Vec<String>,
     /// Experiments at a time.
     #[arg(long, default_value_t = 2)]
@@ -79,12 +80,22 @@ struct Options {
 }
 
 impl Options {
-    fn cases(&self) -> Vec<Case> {
+    /// # Errors
+    /// An arm or an effect that nobody knows.
+    fn cases(&self) -> Result<Vec<Case>, String> {
+        let arms: BTreeSet<String> = ARMS.iter().map(|arm| arm.name.to_owned()).collect();
+        let effects: BTreeSet<String> = ALL.iter().map(Injection::effect).collect();
+        for (names, known) in [(&self.arms, arms), (&self.kinds, effects)] {
+            if let Some(name) = names.iter().find(|name| !known.contains(*name)) {
+                let known: Vec<String> = known.into_iter().collect();
+                return Err(format!("no `{name}`; there are {}", known.join(", ")));
+            }
+        }
         let wanted =
             |names: &[String], name: &str| names.is_empty() || names.iter().any(|one| one == name);
         let mut cases = Vec::new();
         for arm in ARMS.iter().filter(|arm| wanted(&self.arms, arm.name)) {
-            for injection in ALL.iter().filter(|one| wanted(&self.kinds, one.kind)) {
+            for injection in ALL.iter().filter(|one| wanted(&self.kinds, &one.effect())) {
                 for percent in &self.sizes {
                     cases.extend(self.seeds.iter().map(|seed| Case {
                         arm,
@@ -95,7 +106,7 @@ impl Options {
                 }
             }
         }
-        cases
+        Ok(cases)
     }
 }
 
@@ -133,7 +144,7 @@ fn cannot(what: &str, path: &Path, error: &dyn Display) -> String {
 
 /// All experiments, in order.
 fn run(options: &Options) -> Result<Vec<Row>, String> {
-    let cases = options.cases();
+    let cases = options.cases()?;
     let rows = Rows::of(options.json.as_deref())?;
     let next = AtomicUsize::new(0);
     let mine = || {
