@@ -5,7 +5,8 @@
 //! right one is encompassed by none, nor is one by a law whose parameters have the wrong signs, or that leaves a larger error on some joint by
 //! more than noise.
 
-use super::gate::{self, Judged, SIGNIFICANCE};
+use super::chance::SIGNIFICANCE;
+use super::gate::{self, Judged};
 use super::gram::Gram;
 use super::score::Present;
 use super::search::{Search, State};

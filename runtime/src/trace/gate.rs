@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::columns::Change;
 
+use super::chance::is_chance;
 use super::change::Changed;
 use super::folds::Fold;
 use super::gram::{Gram, HeldOut};
@@ -16,37 +17,6 @@ use super::verdict::{Evidence, Refusal, Tried};
 
 /// An effect matters if it lowers the raw error of one of its joints by this much, percent.
 pub(super) const MATERIAL_PERCENT: f64 = 5.0;
-
-/// Family-wise error rate of the score.
-pub(super) const SIGNIFICANCE: f64 = 1e-3;
-
-/// The same of what takes as much off a joint's error that was not fitted, in every fold, and as much off the raw one, percent: a short log
-/// has few blocks, whose score may be no more beyond chance than that. Of 35 clean simulated arms whose zeros wander a law of no more than
-/// noise took at most a third off the one and an eighth off the other, and had a score that is certain among so many tests.
-const LARGE: [Large; 3] = [
-    Large {
-        held_out_percent: 50.0,
-        raw_percent: 20.0,
-        significance: 1.0,
-    },
-    Large {
-        held_out_percent: 20.0,
-        raw_percent: 20.0,
-        significance: 0.3,
-    },
-    Large {
-        held_out_percent: 20.0,
-        raw_percent: 7.5,
-        significance: 1e-2,
-    },
-];
-
-/// What takes so much off needs no more of a score than this.
-struct Large {
-    held_out_percent: f64,
-    raw_percent: f64,
-    significance: f64,
-}
 
 /// How far a fold's torque of the effect may be from that of all folds, relative.
 const STEADINESS: f64 = 0.5;
@@ -326,59 +296,10 @@ pub(super) fn is_promising(judged: &Judged) -> bool {
     !is_chance(&judged.evidence, &joints)
 }
 
-/// Whether noise may have made what it does to its joints.
-fn is_chance(evidence: &Evidence, touched: &[usize]) -> bool {
-    let (improved, folds) = evidence.folds;
-    let takes = |large: &&Large| {
-        let is_large = |joint: &usize| {
-            evidence.held_out_percent[*joint] >= large.held_out_percent
-                && evidence.raw_percent[*joint] >= large.raw_percent
-        };
-        improved == folds && touched.iter().any(is_large)
-    };
-    let large = LARGE.iter().find(takes);
-    evidence.p_value >= large.map_or(SIGNIFICANCE, |large| large.significance)
-}
-
 /// Held-out raw error of `one` relative to `other` on the joint where it is worst, percent.
 pub(super) fn worse_percent(one: &[f64], other: &[f64]) -> f64 {
     one.iter()
         .zip(other)
         .map(|(a, b)| 100.0 * ((a / b).sqrt() - 1.0))
         .fold(f64::NEG_INFINITY, f64::max)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_takes_much_off_in_every_fold_needs_less_of_a_score() {
-        let of = |p_value: f64, held_out: f64, raw: f64, improved: usize| Evidence {
-            score: 40.0,
-            p_value,
-            held_out_percent: vec![2.0, held_out],
-            raw_percent: vec![60.0, raw],
-            folds: (improved, 5),
-        };
-        assert!(!is_chance(&of(5e-4, 3.0, 1.0, 4), &[1]));
-        assert!(!is_chance(&of(0.02, 72.0, 45.0, 5), &[1]));
-        assert!(!is_chance(&of(0.66, 72.0, 45.0, 5), &[1]));
-        assert!(!is_chance(&of(2e-3, 22.0, 8.0, 5), &[1]));
-        assert!(!is_chance(&of(0.2, 22.0, 21.0, 5), &[1]));
-        for chance in [
-            of(2e-3, 18.0, 8.0, 5),
-            of(2e-3, 30.0, 25.0, 4),
-            of(0.02, 72.0, 45.0, 4),
-            of(0.02, 72.0, 7.0, 5),
-            of(0.02, 32.0, 18.0, 5),
-            of(0.02, 18.0, 25.0, 5),
-            of(0.4, 32.0, 25.0, 5),
-            of(1.0, 72.0, 45.0, 5),
-        ] {
-            assert!(is_chance(&chance, &[1]), "{chance:?}");
-        }
-        // What the fit of all does to another joint is no word for a law of this one.
-        assert!(is_chance(&of(2e-3, 72.0, 45.0, 5), &[0]));
-    }
 }

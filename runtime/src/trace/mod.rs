@@ -34,6 +34,7 @@
 
 mod away;
 mod calm;
+mod chance;
 mod change;
 mod choose;
 mod conclude;

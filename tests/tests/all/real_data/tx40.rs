@@ -87,28 +87,34 @@ fn lacks_the_coupling_of_its_wrist() {
     );
 }
 
-/// One friction of one joint, taken out of a spec that has the rest.
+/// What a trace names when `declared` becomes `left` in a spec that has the rest: one effect of one parameter.
+fn taken_out(tx40: &Machine, declared: &str, left: &str) -> (Value, Value) {
+    let whole = "gear_coupling on (joint5, joint6);\n        motor_inertia on all;";
+    let spec = tx40.text.replace("motor_inertia on all;", whole);
+    let report = tx40.close_the_loop_on(&spec.replace(declared, left), "validation.csv");
+    let [one] = report["effects"].as_array().expect("a list").as_slice() else {
+        panic!("{report:#}");
+    };
+    (one.clone(), report)
+}
+
+/// Published: fsj3 = 6.34 N m, Iaj4 = 0.0313 kg m^2.
 #[test]
 fn lacks_what_is_taken_out_of_its_spec() {
     let Some(tx40) = Machine::find("tx40") else {
         return;
     };
-    let whole = "gear_coupling on (joint5, joint6);\n        motor_inertia on all;";
-    let spec = tx40.text.replace("motor_inertia on all;", whole).replace(
+    let value = |one: &Value| one["parameters"][0]["value"].as_f64().expect("a number");
+    let (friction, report) = taken_out(
+        &tx40,
         "coulomb_friction on all;",
         "coulomb_friction on joint1, joint2, joint4, joint5, joint6;",
     );
-    let report = tx40.close_the_loop_on(&spec, "validation.csv");
-    let effects = report["effects"].as_array().expect("a list");
-    let [one] = effects.as_slice() else {
-        panic!("{report:#}");
-    };
     assert_eq!(
-        (&one["kind"], &one["joint"]),
+        (&friction["kind"], &friction["joint"]),
         (&"coulomb-friction".into(), &3.into())
     );
-    let found = one["parameters"][0]["value"].as_f64().expect("a number");
-    assert_within_percent("fc", found, 6.34, 15.0);
+    assert_within_percent("fc", value(&friction), 6.34, 15.0);
     assert!(
         relative(&report, "relative_percent_before", 3) > 40.0,
         "{report:#}"
@@ -117,6 +123,16 @@ fn lacks_what_is_taken_out_of_its_spec() {
         relative(&report, "relative_percent_after", 3) < 15.0,
         "{report:#}"
     );
+    let (rotor, _) = taken_out(
+        &tx40,
+        "motor_inertia on all;",
+        "motor_inertia on joint1, joint2, joint3, joint5, joint6;",
+    );
+    assert_eq!(
+        (&rotor["kind"], &rotor["joint"]),
+        (&"motor-inertia".into(), &4.into())
+    );
+    assert_within_percent("ia", value(&rotor), 0.0313, 15.0);
 }
 
 /// The coupling alone, whatever else the trace may find, settles joint 5.
