@@ -39,7 +39,7 @@ impl TraceArguments {
                 commands: vec![self.trace_with_amended()],
             }),
             (Outcome::Explained, Some(amended)) if closed.changed.is_some() => Some(Next {
-                what: "The amended spec is one like any other. This identifies it, and asks whether an arm can have its numbers:".to_owned(),
+                what: "The amended spec is one like any other. These commands identify it, and check that its numbers are physically possible:".to_owned(),
                 commands: vec![self.identify(amended), audit(amended)],
             }),
             (Outcome::NothingMissing, _) => Some(Next {

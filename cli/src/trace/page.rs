@@ -1,19 +1,17 @@
 //! The report of a trace.
 
+mod verdict;
+
 use std::path::PathBuf;
 
 use robot_model::columns::Arm;
-use robot_model::trace::{FloorFrom, Outcome};
+use robot_model::trace::FloorFrom;
 use robot_model_spec::model::{Joint, JointKind};
 
-use super::apart::{apart, undistinguished};
-use super::doubt::{doubts, on_joints};
 use super::next::Next;
 use super::parameters::{found, parameters as of_all};
-use super::report::effect;
-use super::said::{errors_of, fall, nothing_added, outcome, parameter};
+use super::said::{errors_of, nothing_added};
 use super::tried::rows;
-use super::whereabouts::structure_left;
 use crate::Error;
 use crate::close_the_loop::{Loop, Stage};
 use crate::diff::diff;
@@ -37,8 +35,8 @@ pub(super) fn page(
         &format!("Effects in the logs that {spec} does not declare."),
     );
     page.section("Verdict");
-    verdict(&mut page, closed);
-    open_questions(&mut page, spec, text, closed);
+    verdict::verdict(&mut page, closed);
+    verdict::open_questions(&mut page, spec, text, closed);
     if let Some(next) = next {
         page.part("Next");
         page.text(&next.what);
@@ -71,84 +69,6 @@ pub(super) fn page(
     base_parameters(&mut page, compiled);
     again(&mut page, inputs)?;
     Ok(page.finish())
-}
-
-fn verdict(page: &mut Page, closed: &Loop) {
-    let verdict = &closed.verdict;
-    let (class, word) = match closed.outcome() {
-        Outcome::NothingMissing => ("good", "Nothing missing"),
-        Outcome::Explained => ("known", "Explained"),
-        // Unexplained, or an outcome of which this page knows no more.
-        _ => ("open", "Unexplained"),
-    };
-    let others = undistinguished(&verdict.alternatives);
-    let word = if closed.outcome() == Outcome::Explained && others > 0 {
-        let plural = if others == 1 { "" } else { "s" };
-        format!("{word}, with {others} alternative{plural}")
-    } else {
-        word.to_owned()
-    };
-    page.verdict(class, &word, &sentence(outcome(closed)));
-    let faults = closed.faults.iter();
-    let mut items: Vec<String> = faults
-        .map(|fault| format!("{}: {}", fault.kind, fault.told))
-        .collect();
-    let found = verdict.findings.iter().chain(&verdict.leads).enumerate();
-    items.extend(found.map(|(place, finding)| {
-        let values = effect(finding, closed, place).parameters;
-        let values = values.iter().map(|own| {
-            let told = (own.name, own.value, own.std);
-            parameter(closed, finding, told, |decimals| match own.interval {
-                Some([low, high]) => format!(" ({low:.decimals$} .. {high:.decimals$})"),
-                None => String::new(),
-            })
-        });
-        let lead = if verdict.outcome == Outcome::Unexplained {
-            "a lead: "
-        } else {
-            ""
-        };
-        format!(
-            "{lead}{}: {}",
-            on_joints(closed, &finding.kind, &finding.joints),
-            values.collect::<Vec<_>>().join(", ")
-        )
-    }));
-    items.extend(fall(closed));
-    items.extend(doubts(closed));
-    if !items.is_empty() {
-        page.list(&items);
-    }
-}
-
-/// What the logs leave open.
-fn open_questions(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
-    let verdict = &closed.verdict;
-    if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
-        page.part("Effects that do nearly as well on these logs");
-        page.text("Of effects that do alike the simplest is named.");
-        let open = apart(spec, text, closed);
-        let (mut lines, mut commands) = (Vec::new(), Vec::new());
-        for line in open.lines().map(str::trim) {
-            match line.split_once(": robot-model ") {
-                Some((what, command)) => {
-                    lines.push(format!("{what} (command {} below)", commands.len() + 1));
-                    commands.push(format!("robot-model {command}"));
-                }
-                None => lines.push(line.to_owned()),
-            }
-        }
-        page.list(&lines);
-        if !commands.is_empty() {
-            page.commands(&commands.join("\n"));
-        }
-    }
-    let left = structure_left(closed).into_iter();
-    let left: Vec<String> = left.map(|said| said.join("; ")).collect();
-    if !left.is_empty() {
-        page.part("Where the remaining structure is");
-        page.list(&left);
-    }
 }
 
 fn errors(page: &mut Page, closed: &Loop) {
@@ -222,7 +142,7 @@ fn errors(page: &mut Page, closed: &Loop) {
         .iter()
         .map(|said| sentence(said))
         .collect();
-    page.table(
+    page.cards(
         &format!(
             "RMSE of raw samples, first and last second cut; relative errors (%) in the filtered band. Noise floor, of raw samples of the \
              fitted logs: {floor}. {}",

@@ -43,6 +43,15 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
     }
 }
 
+/// What stands behind `explained` in a headline where structure is left.
+pub(super) fn in_part(closed: &Loop) -> &'static str {
+    if closed.verdict.left.is_empty() {
+        ""
+    } else {
+        " in part"
+    }
+}
+
 /// Why the spec is as it was; none where it is not.
 pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
     let why = match closed.outcome() {

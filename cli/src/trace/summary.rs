@@ -8,7 +8,7 @@ use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 use super::apart::{apart, undistinguished};
 use super::doubt::{doubts, on_joints};
 use super::report::effect;
-use super::said::{errors_of, outcome, parameter};
+use super::said::{errors_of, in_part, outcome, parameter};
 use super::tried::tried;
 use super::whereabouts::structure_left;
 use crate::close_the_loop::Loop;
@@ -20,7 +20,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let verdict = &closed.verdict;
     let mut out = match closed.outcome() {
         Outcome::NothingMissing => format!("nothing missing: {}\n", outcome(closed)),
-        Outcome::Explained => format!("explained:{}\n", one_of(closed)),
+        Outcome::Explained => format!("explained{}:{}\n", in_part(closed), one_of(closed)),
         _ => format!("unexplained: {}\n", outcome(closed)),
     };
     for fault in &closed.faults {
@@ -62,6 +62,13 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         writeln!(
             out,
             "  the search stops at {MOST_EFFECTS} effects: declare the friction common to all joints, and trace again"
+        )
+        .expect("a string takes all");
+    }
+    if verdict.findings.len() >= MOST_EFFECTS && !verdict.left.is_empty() {
+        writeln!(
+            out,
+            "  the search stops at {MOST_EFFECTS} effects: write the amended spec (`--amend`), and trace it for more"
         )
         .expect("a string takes all");
     }

@@ -84,7 +84,7 @@ fn row(closed: &Loop, one: &Tried) -> [String; 6] {
     };
     [
         (one.round + 1).to_string(),
-        on_joints(closed, &one.kind, &one.joints),
+        on_joints(closed, &one.effect.replace('_', "-"), &one.joints),
         if score < MOST_SCORE {
             format!("{score:.1}")
         } else {

@@ -282,6 +282,7 @@ impl Judged<'_> {
         Tried {
             round,
             kind: self.trial.candidate.kind().to_owned(),
+            effect: self.trial.candidate.effect(),
             joints: self.trial.candidate.joints().to_vec(),
             shapes: changed.unwrap_or(&self.trial.shapes).clone(),
             evidence: self.evidence.clone(),

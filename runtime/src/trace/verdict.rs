@@ -80,6 +80,8 @@ pub struct Tried {
     pub round: usize,
     /// Kebab-case name.
     pub kind: String,
+    /// Name in the language of what a spec would declare for it: of several laws of the kind, which one.
+    pub effect: String,
     /// Joints, from 0.
     pub joints: Vec<usize>,
     /// Values of its shape parameters.

@@ -1,4 +1,4 @@
-//! `audit` of a table that was published; that of a second paper is asked in `examples/tests/seed_002.rs`.
+//! `audit` of a table that was published; that of a second paper is asked in `examples/tests/all/seed_002.rs`.
 
 use std::collections::BTreeMap;
 

@@ -2,6 +2,7 @@ use super::*;
 
 fn tried(kind: &str, round: usize, percent: f64, refusals: &[Refusal]) -> Tried {
     Tried {
+        effect: kind.replace('-', "_"),
         round,
         kind: kind.to_owned(),
         joints: vec![1],
