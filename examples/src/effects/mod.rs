@@ -77,10 +77,10 @@ fn means(effect: &EffectDefinition) -> &'static str {
 fn index() -> String {
     let mut text = String::from(
         "# Effects\n\n\
-         What the language knows beside the rigid body, a page each: its equation, its parameters, when it is identifiable, what is taken for \
-         it, and the motion that parts the two.\n\
+         A page for each effect beside the rigid body: its equation, its parameters, when it is identifiable, which effects look similar, and \
+         the motion that distinguishes them.\n\
          A spec declares an effect by its name, `effects { stribeck on elbow; }`; [`trace`](../tracing.md) tries those that it does not \
-         declare, and has them with hyphens.\n\
+         declare, and writes their names with hyphens.\n\
          [The language](../../model-spec/LANGUAGE.md#effects) says how an effect is defined, for those of one's own.\n\n\
          | effect | what it is | acts as | in `trace` |\n|---|---|---|---|\n",
     );

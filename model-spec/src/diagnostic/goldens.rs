@@ -31,7 +31,7 @@ const SILENT: [Silent; 2] = [
     Silent {
         file: "log_settings.rs",
         words: "too large",
-        reason: "a golden of 64 kB; `tests/log_settings.rs` makes it speak",
+        reason: "a golden of 64 kB; `tests/all/log_settings.rs` makes it speak",
     },
     Silent {
         file: "parse/expr.rs",

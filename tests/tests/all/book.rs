@@ -32,9 +32,9 @@ fn read(page: &Path) -> String {
         .unwrap_or_else(|error| panic!("{}: {error}", page.display()))
 }
 
-/// Pages below a folder of the repository, by their paths from its root.
-fn pages_in(folder: &str) -> Vec<PathBuf> {
-    let mut pages = Vec::new();
+/// Files of a kind below a folder of the repository, by their paths from its root.
+fn files_in(folder: &str, kind: &str) -> Vec<PathBuf> {
+    let mut files = Vec::new();
     let mut folders = vec![PathBuf::from(folder)];
     while let Some(folder) = folders.pop() {
         let entries = fs::read_dir(Path::new(ROOT).join(&folder)).expect("a folder");
@@ -42,14 +42,19 @@ fn pages_in(folder: &str) -> Vec<PathBuf> {
             let entry = entry.expect("an entry");
             let path = folder.join(entry.file_name());
             if entry.file_type().expect("a type").is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "md") {
-                pages.push(path);
+                let is_ours = path != Path::new("target") && path != Path::new(".git");
+                folders.extend(is_ours.then_some(path));
+            } else if path.extension().is_some_and(|extension| extension == kind) {
+                files.push(path);
             }
         }
     }
-    pages.sort();
-    pages
+    files.sort();
+    files
+}
+
+fn pages_in(folder: &str) -> Vec<PathBuf> {
+    files_in(folder, "md")
 }
 
 /// Those of the root, of the docs, and those of other folders that are in the book.
@@ -184,6 +189,30 @@ fn every_link_leads_somewhere() {
     }
     assert!(broken.is_empty(), "{}", broken.join("\n"));
     assert!(count > 80, "only {count} links were found");
+}
+
+/// Programs that a page names by their files; how things were called before is for the changelog.
+#[test]
+fn every_source_that_a_page_names_is_there() {
+    let sources = files_in("", "rs");
+    let (mut count, mut missing) = (0, Vec::new());
+    for page in pages() {
+        if page == Path::new("CHANGELOG.md") {
+            continue;
+        }
+        for event in parser(&read(&page)) {
+            let Event::Code(code) = event else { continue };
+            let is_pattern = code.contains([' ', '<', '*']);
+            if code.ends_with(".rs") && code.contains('/') && !is_pattern {
+                count += 1;
+                // Components, so that `tests/a.rs` is no end of `mytests/a.rs`.
+                let is_there = sources.iter().any(|source| source.ends_with(&*code));
+                missing.extend((!is_there).then(|| format!("{}: {code}", page.display())));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+    assert!(count > 40, "only {count} were found");
 }
 
 #[test]

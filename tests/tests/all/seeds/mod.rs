@@ -57,7 +57,7 @@ fn pneumatic(name: &str) -> f64 {
     }
 }
 
-/// Equations (3) and (4) of the paper on the pneumatic arm, as printed. `examples/tests/seed_001.rs` has its chain, too.
+/// Equations (3) and (4) of the paper on the pneumatic arm, as printed. `examples/tests/all/seed_001.rs` has its chain, too.
 fn printed_pneumatic(state: &State) -> DMatrix<f64> {
     let [m1, m2, l1, c1, c2, i1, i2] = ["m1", "m2", "l1", "c1", "c2", "I1", "I2"].map(pneumatic);
     let g = 9.81;
