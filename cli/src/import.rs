@@ -103,6 +103,11 @@ impl Import {
                 "note: gravity is taken to be [{x}, {y}, {z}] m/s^2 in the frame of the base: a URDF does not say it (--gravity X,Y,Z)"
             ));
         }
+        if self.effects.is_empty() {
+            output::say(
+                "note: no friction is declared, and real joints have it: --effects \"all:viscous_friction,coulomb_friction\"",
+            );
+        }
         for warning in &imported.warnings {
             output::say(&format!("warning: {warning}"));
         }

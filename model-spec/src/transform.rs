@@ -95,10 +95,13 @@ pub(crate) fn rotation_rpy([roll, pitch, yaw]: [f64; 3]) -> Rotation {
 /// Roll, pitch, yaw of a rotation; at pitch of a quarter turn, where only a sum of the other two is seen, yaw is zero.
 pub(crate) fn rpy(x: &Rotation) -> [f64; 3] {
     let pitch = (-x[2][0]).atan2(x[0][0].hypot(x[1][0]));
-    if x[2][0].abs() > 1.0 - 1e-12 {
-        return [(x[0][1] * pitch.signum()).atan2(x[1][1]), pitch, 0.0];
-    }
-    [x[2][1].atan2(x[2][2]), pitch, x[1][0].atan2(x[0][0])]
+    let angles = if x[2][0].abs() > 1.0 - 1e-12 {
+        [(x[0][1] * pitch.signum()).atan2(x[1][1]), pitch, 0.0]
+    } else {
+        [x[2][1].atan2(x[2][2]), pitch, x[1][0].atan2(x[0][0])]
+    };
+    // No zero has a sign.
+    angles.map(|angle| angle + 0.0)
 }
 
 /// `x * y`

@@ -43,7 +43,7 @@ const WORN_SPEED: f64 = 0.15;
 /// How one's own arm goes the same way.
 const NEXT: &str = "
 Next, with your own arm and logs (docs/tutorial.md goes through it):
-  robot-model import arm.urdf -o arm.robot      # a spec from a URDF; without one: robot-model new Arm -o arm.robot
+  robot-model import arm.urdf --effects \"all:viscous_friction,coulomb_friction\" -o arm.robot    # without a URDF: robot-model new Arm -o arm.robot
   robot-model identify arm.robot log.csv --validate other.csv
   robot-model trace arm.robot log.csv --validate other.csv --report report
 ";

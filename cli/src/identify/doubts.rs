@@ -61,6 +61,15 @@ fn little(
     })
 }
 
+/// That the spec says of joints which nothing explains that they have no friction.
+pub(super) fn frictionless(model: &Model) -> Option<String> {
+    model.effects.is_empty().then(|| {
+        "the spec declares no effects, and real joints have friction: write `effects { viscous_friction on all; coulomb_friction on all; }` \
+         into it"
+            .to_owned()
+    })
+}
+
 /// What is left by least squares, which is asked beside instruments.
 pub(super) fn left(estimate: &Estimate) -> &[f64] {
     let hausman = estimate.hausman.as_ref();

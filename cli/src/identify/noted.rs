@@ -154,7 +154,9 @@ impl IdentifyArguments {
             all.extend(untold::doubts(estimate, form.compiled(), &resting));
         }
         all.extend(fixed.into_iter().chain(apart));
+        let is_bare = (!explained.is_empty()).then(|| doubts::frictionless(form.model()));
         all.extend(explained);
+        all.extend(is_bare.flatten());
         all
     }
 }

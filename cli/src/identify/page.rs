@@ -223,7 +223,7 @@ impl<'a> Evidence<'a> {
             });
             std::iter::once(joint.name.clone()).chain(cells).collect()
         });
-        page.table(
+        page.cards(
             "RMSE and MAE: root mean square and mean absolute error of the computed torque, in N m (prismatic joints: N). RMS%: residual \
              relative to the joint's torque, below the filters' cutoff. NRMSE fit: 100 % is exact, 0 % is no better than a constant. The \
              first and the last second do not count.",

@@ -13,7 +13,7 @@ pub(super) fn doubts(fitted: &[PathBuf], validate: Option<&Path>) -> Vec<String>
     for (k, path) in fitted.iter().enumerate() {
         if let Some(first) = fitted[..k].iter().find(|first| is_same(first, path)) {
             found.push(format!(
-                "{} is the same log as {}: it counts twice, and standard deviations are too small",
+                "the fitted log {} is the same log as {}: it counts twice, and standard deviations are too small",
                 path.display(),
                 first.display()
             ));
@@ -22,7 +22,7 @@ pub(super) fn doubts(fitted: &[PathBuf], validate: Option<&Path>) -> Vec<String>
     let both = validate.and_then(|path| {
         let fitted = fitted.iter().find(|fitted| is_same(fitted, path))?;
         Some(format!(
-            "{} is the same log as {}, which is fitted: its errors do not validate the model",
+            "the validation log {} is the same log as {}, which is fitted: its errors do not validate the model",
             path.display(),
             fitted.display()
         ))

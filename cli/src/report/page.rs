@@ -5,6 +5,9 @@ use std::fmt::Write;
 const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = include_str!("page.js");
 
+/// What stands in a column of numbers where there is none to compare.
+const BESIDE_NUMBERS: [&str; 3] = ["", "-", "worse"];
+
 const PUT: &str = "a string takes all";
 
 /// A page that grows from its head to its end.
@@ -115,7 +118,8 @@ impl Page {
             let mut cells = rows.iter().filter_map(|row| row.get(column));
             column > 0
                 && cells.clone().any(|cell| number(cell).is_some())
-                && cells.all(|cell| number(cell).is_some() || cell.len() < 2)
+                && cells
+                    .all(|cell| number(cell).is_some() || BESIDE_NUMBERS.contains(&cell.as_str()))
         };
         let are_numbers: Vec<bool> = (0..head.len()).map(is_number).collect();
         for (name, is_number) in head.iter().zip(&are_numbers) {
