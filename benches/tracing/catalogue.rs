@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::noise::{DRIVE, FAR, Noise, SLOW, WANDERING};
+
 /// A shape parameter by the size of its effect.
 pub type OfSize = fn(f64) -> f64;
 
@@ -34,6 +36,8 @@ pub struct Injection {
     pub law: Option<&'static str>,
     /// Bits a turn of the encoders, where they are coarser than [`ENCODER_STEP`].
     pub encoder_bits: Option<u8>,
+    /// Of its torques.
+    pub noise: Noise,
 }
 
 /// Steps of the encoders, rad: between 18 and 19 bits a turn.
@@ -70,27 +74,25 @@ const NONE: Injection = Injection {
     effect: None,
     law: None,
     encoder_bits: None,
+    noise: DRIVE,
 };
+
+/// An arm that lacks nothing.
+const fn complete(noise: Noise, encoder_bits: Option<u8>) -> Injection {
+    Injection {
+        kind: "nothing",
+        place: Place::Nowhere,
+        encoder_bits,
+        noise,
+        ..NONE
+    }
+}
 
 /// Everything that is tried.
 pub static ALL: &[Injection] = &[
-    Injection {
-        kind: "nothing",
-        place: Place::Nowhere,
-        ..NONE
-    },
-    Injection {
-        kind: "nothing",
-        place: Place::Nowhere,
-        encoder_bits: Some(16),
-        ..NONE
-    },
-    Injection {
-        kind: "nothing",
-        place: Place::Nowhere,
-        encoder_bits: Some(14),
-        ..NONE
-    },
+    complete(DRIVE, None),
+    complete(DRIVE, Some(16)),
+    complete(DRIVE, Some(14)),
     Injection {
         kind: "coulomb-friction",
         linear: &[("fc", 1.0)],
@@ -355,6 +357,9 @@ pub static ALL: &[Injection] = &[
         ..NONE
     }
     .of("effect unknown(j) { linear c; torque(j) = c * sin(2 * q(j)) * dq(j) * abs(dq(j)); }"),
+    complete(SLOW, None),
+    complete(WANDERING, None),
+    complete(FAR, None),
 ];
 
 impl Injection {

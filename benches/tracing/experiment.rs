@@ -4,7 +4,6 @@ use std::fmt::Display;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::log::{Log, MOTION_PHASE};
 use robot_model::simulate::{ComputedTorque, Gains, Loop, Sensors};
 use robot_model_cli::interpreted::InterpretedPlant;
@@ -20,15 +19,8 @@ use crate::draw::{Draw, place};
 use crate::motion::{CHANNELS, Waves};
 
 /// Lengths of the logs, s, and their rate, Hz.
-const SECONDS: [f64; 2] = [20.0, 15.0];
-const RATE_HZ: f64 = 500.0;
-
-/// Noise of the torques as shares of their root mean square: white, correlated with 0.9 from one sample to
-/// the next, and a slow wander.
-const WHITE: f64 = 0.004;
-const COLORED: f64 = 0.006;
-const CORRELATION: f64 = 0.9;
-const WANDER: f64 = 0.002;
+pub(crate) const SECONDS: [f64; 2] = [20.0, 15.0];
+pub(crate) const RATE_HZ: f64 = 500.0;
 
 /// Share of samples that are spikes.
 const SPIKES: f64 = 0.003;
@@ -260,7 +252,7 @@ impl Case {
         let mut tau = record.tau;
         let mut random = ChaCha8Rng::seed_from_u64(!noise);
         for values in &mut tau {
-            disturb(values, &mut random);
+            self.injection.noise.disturb(values, &mut random);
         }
         let name = ["identification", "validation"][part];
         let mut log = Log::from_samples(name, record.time, record.q, tau).map_err(said)?;
@@ -284,17 +276,4 @@ impl Case {
 pub(crate) fn rms(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
     (sum / f64::max(count, 1.0)).sqrt()
-}
-
-/// White noise, colored noise and a slow wander, relative to the values' root mean square.
-fn disturb(values: &mut [f64], random: &mut ChaCha8Rng) {
-    let size = rms(values.iter().copied());
-    let mut normal = || -> f64 { StandardNormal.sample(random) };
-    let (mut colored, mut wander) = (normal(), 0.0);
-    let step = (RATE_HZ * SECONDS[0]).sqrt().recip();
-    for value in values {
-        colored = CORRELATION * colored + (1.0 - CORRELATION * CORRELATION).sqrt() * normal();
-        wander += step * normal();
-        *value += size * (WHITE * normal() + COLORED * colored + WANDER * wander);
-    }
 }

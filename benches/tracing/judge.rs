@@ -45,6 +45,9 @@ pub struct Row {
     pub number: usize,
     /// Bits a turn of the encoders, where they are coarse.
     pub encoder_bits: Option<u8>,
+    /// What its torques have that those of a usual drive have not.
+    #[serde(default)]
+    pub noise: String,
     /// Whether its motions repeat.
     pub repeats: bool,
     /// Joints from 1.
@@ -183,6 +186,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         seed: case.seed,
         number: case.number(),
         encoder_bits: case.injection.encoder_bits,
+        noise: case.injection.noise.name.to_owned(),
         repeats: experiment.repeats,
         joints: experiment.joints.iter().map(|joint| joint + 1).collect(),
         is_material,

@@ -15,6 +15,7 @@ mod figures;
 mod judge;
 mod keep;
 mod motion;
+mod noise;
 mod rows;
 mod size;
 mod table;

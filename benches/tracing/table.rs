@@ -161,14 +161,15 @@ fn summary(rows: &[Row]) -> String {
     let alarms: [(&str, &[Mark]); 1] = [("false alarms", &[Mark::Wrong])];
     tell("clean arms", &|row| row.kind == "nothing", &alarms);
     let clean = rows.iter().filter(|row| row.kind == "nothing");
-    let encoders: BTreeSet<Option<u8>> = clean.map(|row| row.encoder_bits).collect();
-    for bits in encoders {
-        let what = bits.map_or_else(
-            || "usual encoders".to_owned(),
-            |bits| format!("{bits} bits"),
-        );
-        let is_here = |row: &&Row| row.kind == "nothing" && row.encoder_bits == bits;
-        tell(&format!("  of these with {what}"), &is_here, &alarms);
+    let what = |row: &Row| match (row.encoder_bits, row.noise.as_str()) {
+        (None, "") => "usual encoders".to_owned(),
+        (Some(bits), _) => format!("{bits} bits"),
+        (None, noise) => noise.to_owned(),
+    };
+    let whats: BTreeSet<String> = clean.map(what).collect();
+    for one in whats {
+        let is_here = |row: &&Row| row.kind == "nothing" && what(row) == one;
+        tell(&format!("  of these with {one}"), &is_here, &alarms);
     }
     let is_small = |row: &&Row| !row.is_material && row.kind != "nothing" && row.kind != "unknown";
     tell("too little to matter", &is_small, &named[2..]);

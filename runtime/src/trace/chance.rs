@@ -6,19 +6,19 @@ use super::verdict::Evidence;
 pub(super) const SIGNIFICANCE: f64 = 1e-3;
 
 /// What takes as much off a joint's error that was not fitted, and off the raw one, needs no more of a score than this: a short log has few
-/// blocks, whose score may be no more beyond chance than that. Of 35 clean simulated arms whose zeros wander a law of no more than noise took
-/// at most a third off the one and an eighth off the other, and had a score that is certain among so many tests.
+/// blocks, whose score may be no more beyond chance than that. Laws of time are no such laws: a zero that wanders looks like a force for some
+/// seconds, which may halve both errors in all folds.
 const LARGE: [Large; 4] = [
     Large {
         held_out_percent: 50.0,
         raw_percent: 20.0,
-        significance: 1.0,
+        significance: 0.3,
         folds_without: 0,
     },
     Large {
-        held_out_percent: 20.0,
+        held_out_percent: 30.0,
         raw_percent: 20.0,
-        significance: 0.3,
+        significance: 0.1,
         folds_without: 0,
     },
     Large {
@@ -57,9 +57,10 @@ impl Large {
     }
 }
 
-/// Whether noise may have made what it does to its joints.
-pub(super) fn is_chance(evidence: &Evidence, touched: &[usize]) -> bool {
-    let is_large = LARGE.iter().any(|large| large.is_of(evidence, touched));
+/// Whether noise may have made what a candidate does to its joints.
+pub(super) fn is_chance(evidence: &Evidence, touched: &[usize], is_of_time: bool) -> bool {
+    let mut large = LARGE.iter();
+    let is_large = !is_of_time && large.any(|large| large.is_of(evidence, touched));
     !is_large && evidence.p_value >= SIGNIFICANCE
 }
 
@@ -76,12 +77,17 @@ mod tests {
             raw_percent: vec![60.0, raw],
             folds: (improved, 5),
         };
-        assert!(!is_chance(&of(5e-4, 3.0, 1.0, 4), &[1]));
-        assert!(!is_chance(&of(0.02, 72.0, 45.0, 5), &[1]));
-        assert!(!is_chance(&of(0.66, 72.0, 45.0, 5), &[1]));
-        assert!(!is_chance(&of(2e-3, 22.0, 8.0, 5), &[1]));
-        assert!(!is_chance(&of(0.2, 22.0, 21.0, 5), &[1]));
-        assert!(!is_chance(&of(8e-3, 22.0, 21.0, 4), &[1]));
+        let named = |evidence: &Evidence| !is_chance(evidence, &[1], false);
+        for law in [
+            of(5e-4, 3.0, 1.0, 4),
+            of(0.02, 72.0, 45.0, 5),
+            of(0.2, 72.0, 45.0, 5),
+            of(2e-3, 22.0, 8.0, 5),
+            of(0.02, 32.0, 21.0, 5),
+            of(8e-3, 22.0, 21.0, 4),
+        ] {
+            assert!(named(&law), "{law:?}");
+        }
         for chance in [
             of(2e-3, 18.0, 8.0, 5),
             of(2e-3, 30.0, 25.0, 3),
@@ -89,13 +95,16 @@ mod tests {
             of(0.02, 72.0, 45.0, 4),
             of(0.02, 72.0, 7.0, 5),
             of(0.02, 32.0, 18.0, 5),
-            of(0.02, 18.0, 25.0, 5),
-            of(0.4, 32.0, 25.0, 5),
-            of(1.0, 72.0, 45.0, 5),
+            of(0.02, 28.0, 25.0, 5),
+            of(0.2, 32.0, 25.0, 5),
+            of(0.4, 72.0, 45.0, 5),
         ] {
-            assert!(is_chance(&chance, &[1]), "{chance:?}");
+            assert!(!named(&chance), "{chance:?}");
         }
         // What the fit of all does to another joint is no word for a law of this one.
-        assert!(is_chance(&of(2e-3, 72.0, 45.0, 5), &[0]));
+        assert!(is_chance(&of(2e-3, 72.0, 45.0, 5), &[0], false));
+        // A wandering zero takes as much off.
+        assert!(is_chance(&of(2e-3, 72.0, 45.0, 5), &[1], true));
+        assert!(!is_chance(&of(5e-4, 72.0, 45.0, 5), &[1], true));
     }
 }

@@ -105,7 +105,7 @@ impl<'a> Baseline<'a> {
             p_value,
             ..compared.evidence
         };
-        let chance = is_chance(&evidence, &touched);
+        let chance = is_chance(&evidence, &touched, trial.candidate.is_of_time());
         let steady = held_out
             .estimates
             .iter()
@@ -167,7 +167,7 @@ impl<'a> Baseline<'a> {
             p_value: first.evidence.p_value,
             ..compared.evidence
         };
-        let chance = is_chance(&evidence, &joints);
+        let chance = is_chance(&evidence, &joints, first.trial.candidate.is_of_time());
         Judged {
             evidence,
             merit: compared.merit,
@@ -294,7 +294,11 @@ impl Judged<'_> {
 /// Whether the first order of a change, which all joints may feel, says that it may be worth a trial as what it is.
 pub(super) fn is_promising(judged: &Judged) -> bool {
     let joints: Vec<usize> = (0..judged.evidence.raw_percent.len()).collect();
-    !is_chance(&judged.evidence, &joints)
+    !is_chance(
+        &judged.evidence,
+        &joints,
+        judged.trial.candidate.is_of_time(),
+    )
 }
 
 /// Held-out raw error of `one` relative to `other` on the joint where it is worst, percent.
