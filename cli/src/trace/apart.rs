@@ -126,6 +126,7 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
         named: closed.verdict.findings[rival.instead_of].kind.as_str(),
         rival: on_joints(closed, &rival.kind, &rival.joints),
         is_same: is_same(rival),
+        is_worse: is_worse(rival.worse_folds),
         both,
     });
     if more > 0 {
@@ -183,6 +184,8 @@ struct Pair<'a> {
     rival: String,
     /// Whether they are the same along the logs.
     is_same: bool,
+    /// Whether the rival has the larger error in every fold.
+    is_worse: bool,
     both: &'a [String; 2],
 }
 
@@ -197,6 +200,11 @@ fn commands(spec: &str, first: &str, is_one: bool, pairs: &[Pair]) -> String {
         };
         let what = if pair.is_same {
             format!("along these logs they are identical; find out which motion {tells}, if any")
+        } else if pair.is_worse {
+            format!(
+                "{} is worse in every fold of these logs; to be sure, design the motion that best {tells}",
+                pair.rival
+            )
         } else {
             format!("these logs cannot decide; design the motion that best {tells}")
         };
@@ -302,6 +310,7 @@ mod tests {
             named: "quadratic-viscous",
             rival: ["cubic-viscous on elbow", "stribeck on elbow"][k].to_owned(),
             is_same: k == 1,
+            is_worse: false,
             both: &both[k],
         };
         assert_eq!(
@@ -313,6 +322,14 @@ mod tests {
         );
         let one = commands("arm.robot", "", true, &[pair(0)]);
         assert!(one.contains("the motion that best separates them"), "{one}");
+        let worse = Pair {
+            is_worse: true,
+            ..pair(0)
+        };
+        let told = commands("arm.robot", "", true, &[worse]);
+        let words =
+            "cubic-viscous on elbow is worse in every fold of these logs; to be sure, design";
+        assert!(told.contains(words), "{told}");
     }
 
     #[test]

@@ -268,3 +268,36 @@ fn what_hides_in_a_parameter_below_zero_is_told() {
         }
     }
 }
+
+/// No choice is made on the validation log: with others in its place, and with none, all but the errors on it stays, to the last digit.
+#[test]
+fn the_validation_log_is_sealed() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
+    folder.write("other.csv", &cart_log(20, 2.0, 0.7));
+    // A log of another cart: with less dry friction.
+    folder.write("unlike.csv", &cart_log(25, 0.4, 1.9));
+    let verdict = |rest: &[&str]| -> Value {
+        let trace = ["trace", "cart.robot", "log.csv", "--json", "out.json"];
+        folder.succeed(&[&trace[..], rest].concat());
+        let mut out = json(&folder.read("out.json"));
+        let all = out.as_object_mut().expect("an object");
+        for of_validation in [
+            "rmse_before",
+            "rmse_after",
+            "relative_percent_before",
+            "relative_percent_after",
+            "borne_out",
+            "unlike_validation",
+        ] {
+            assert!(all.remove(of_validation).is_some(), "no {of_validation}");
+        }
+        out
+    };
+    let alone = verdict(&[]);
+    assert_eq!(alone["outcome"], "explained");
+    assert!(!alone["tried"].as_array().expect("a list").is_empty());
+    assert_eq!(verdict(&["--validate", "other.csv"]), alone);
+    assert_eq!(verdict(&["--validate", "unlike.csv"]), alone);
+}

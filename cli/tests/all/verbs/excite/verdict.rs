@@ -74,7 +74,7 @@ fn what_a_log_leaves_open_the_next_experiment_settles() {
     );
     let mut lines = said.lines().map(str::trim_start);
     let command = lines.find(|line| {
-        line.starts_with("these logs cannot decide; design the motion that best separates quadratic-viscous from cubic-viscous")
+        line.contains("design the motion that best separates quadratic-viscous from cubic-viscous")
     });
     let command = command.and_then(|line| line.split_once(": robot-model "));
     let command = words(command.unwrap_or_else(|| panic!("a command: {said}")).1);
