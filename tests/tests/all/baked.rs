@@ -7,7 +7,7 @@ use robot_model_tests::states::{generator, state, typed};
 
 #[deny(warnings)]
 #[allow(clippy::pedantic, reason = "derived, not written")]
-mod baked {
+mod arms {
     pub mod puma560 {
         robot_model::include_robot!("baked_puma560");
     }
@@ -21,17 +21,17 @@ mod baked {
 
 #[test]
 fn baked_arms_are_those_of_their_parameters() {
-    assert_same::<_, emitted::puma560::Puma560, _, _, _, _, _, _>(&baked::puma560::Puma560);
-    assert_same::<_, emitted::memory::Memory, _, _, _, _, _, _>(&baked::memory::Memory);
-    assert_same::<_, emitted::phantom::Phantom, _, _, _, _, _, _>(&baked::phantom::Phantom);
+    assert_same::<_, emitted::puma560::Puma560, _, _, _, _, _, _>(&arms::puma560::Puma560);
+    assert_same::<_, emitted::memory::Memory, _, _, _, _, _, _>(&arms::memory::Memory);
+    assert_same::<_, emitted::phantom::Phantom, _, _, _, _, _, _>(&arms::phantom::Phantom);
 }
 
 /// Zeros of parameters leave nothing behind, and what is known needs no argument.
 #[test]
 fn a_baked_arm_is_no_larger_than_nothing() {
-    assert_eq!(size_of::<baked::puma560::Puma560>(), 0);
-    assert_eq!(baked::memory::Memory::SHAPE_PARAMETERS, [""; 0]);
-    let _: [f64; 6] = baked::puma560::gravity(&[0.1; 6]);
+    assert_eq!(size_of::<arms::puma560::Puma560>(), 0);
+    assert_eq!(arms::memory::Memory::SHAPE_PARAMETERS, [""; 0]);
+    let _: [f64; 6] = arms::puma560::gravity(&[0.1; 6]);
 }
 
 #[track_caller]
