@@ -10,10 +10,9 @@ use crate::output::significant;
 /// An error that is smaller is at most this share of what it was.
 const LEAST_FALL: f64 = 0.99;
 
-/// Joints of which this many times as much is left, relative to the torque, on the log that was not fitted as on those that were, and more
-/// than this percentage, are told: that is no matter of another motion.
-const TIMES_AS_MUCH: f64 = 3.0;
-const MUCH_PERCENT: f64 = 5.0;
+/// Joints of which so many times as much is left, relative to the torque, on the log that was not fitted as on those that were, and more than so
+/// many percent, are told: that is no matter of another motion.
+const UNLIKE: [(f64, f64); 2] = [(3.0, 5.0), (5.0, 2.0)];
 
 /// A law that takes this share off a joint's error on the logs that were fitted takes more than this part of it off on any log that shows it.
 const FALL: f64 = 0.2;
@@ -77,10 +76,14 @@ pub(super) fn unlike(closed: &Loop) -> Vec<usize> {
     let Some((unseen, fitted)) = relative_percent(closed) else {
         return Vec::new();
     };
-    let is_unlike = |joint: &usize| {
-        unseen[*joint] > MUCH_PERCENT && unseen[*joint] > TIMES_AS_MUCH * fitted[*joint]
-    };
-    (0..fitted.len()).filter(is_unlike).collect()
+    (0..fitted.len())
+        .filter(|&joint| is_unlike(unseen[joint], fitted[joint]))
+        .collect()
+}
+
+fn is_unlike(unseen: f64, fitted: f64) -> bool {
+    let mut limits = UNLIKE.iter();
+    limits.any(|(times, percent)| unseen > *percent && unseen > times * fitted)
 }
 
 /// What the last model leaves on the log that was not fitted and on those that were, percent of each joint's torque.
@@ -213,7 +216,13 @@ pub(super) fn on_joints(closed: &Loop, kind: &str, on: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{said_of_falls, said_of_floors};
+    use super::{is_unlike, said_of_falls, said_of_floors};
+
+    #[test]
+    fn a_log_that_shows_more_has_several_times_the_error() {
+        assert!(is_unlike(6.0, 1.9) && is_unlike(4.9, 0.6));
+        assert!(!is_unlike(6.0, 2.1) && !is_unlike(4.9, 1.2) && !is_unlike(1.9, 0.1));
+    }
 
     #[test]
     fn a_law_that_does_far_less_on_another_motion_is_told() {
