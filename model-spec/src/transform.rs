@@ -235,7 +235,10 @@ mod tests {
             [0.0; 3],
         ] {
             let rotation = rotation_rpy(angles);
-            let again = rotation_rpy(rpy(&rotation));
+            let found = rpy(&rotation);
+            let has_signed_zero = |angle: &f64| *angle == 0.0 && angle.is_sign_negative();
+            assert!(!found.iter().any(has_signed_zero), "{found:?}");
+            let again = rotation_rpy(found);
             let difference = rotation
                 .iter()
                 .flatten()

@@ -244,7 +244,28 @@ mod tests {
             assert_eq!(told, is_told, "{kind}");
         }
 
+        // What is left beside them is told in the headline, and where all rounds were used, how to go on.
+        closed.verdict.alternatives.clear();
+        let mut other = log();
+        for (torque, time) in other.tau[0].iter_mut().zip(&other.time) {
+            *torque += 4.0 * (2.36 * time + 0.3 * (0.7 * time).sin()).sin();
+        }
+        let other = close("cart.robot", CART, &[other], None, &Progress::new());
+        let left = other.unwrap_or_else(|error| panic!("{error}")).verdict.left;
+        assert!(!left.is_empty());
+        closed.verdict.left = left;
+        let told = summary("cart.robot", &closed, CART);
+        assert!(told.starts_with("explained in part:\n"), "{told}");
+        assert!(!told.contains("the search stops"), "{told}");
+        closed.verdict.findings = vec![finding.clone(); MOST_EFFECTS];
+        let told = summary("cart.robot", &closed, CART);
+        assert!(
+            told.contains("the search stops at 6 effects: write the amended spec"),
+            "{told}"
+        );
+
         closed.verdict.outcome = Outcome::Unexplained;
+        closed.verdict.left.clear();
         closed.verdict.findings.clear();
         closed.verdict.leads = vec![finding.clone()];
         CART.clone_into(&mut closed.amended);

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::verbs::common::{Folder, URDF, close, json, numbers};
+use crate::verbs::common::{CART, Folder, URDF, cart_log, close, json, numbers};
 
 #[test]
 fn import_writes_a_spec_that_passes_the_check() {
@@ -31,6 +31,33 @@ fn import_writes_a_spec_that_passes_the_check() {
             .replace("lift  p", "lift   p")
     );
     assert!(folder.read("arm.robot").contains("gravity = [0, -9.81, 0]"));
+}
+
+/// A URDF has no friction; that the spec has none is told, and where it matters again.
+#[test]
+fn that_no_friction_is_declared_is_told() {
+    let folder = Folder::new();
+    folder.write("arm.urdf", URDF);
+    let with = "all:coulomb_friction";
+    for (effects, is_told) in [("", true), (with, false)] {
+        let import = ["import", "arm.urdf", "-o", "arm.robot", "--force"];
+        let run = folder.run(&[&import[..], &["--effects", effects]].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let note = "note: no friction is declared";
+        assert_eq!(run.stderr.contains(note), is_told, "{}", run.stderr);
+    }
+    // Nearly all of this cart's force is dry friction.
+    folder.write("log.csv", &cart_log(20, 40.0, 0.0));
+    let declared = "    effects {\n        viscous_friction on rail;\n    }\n";
+    let bare = CART.replace(declared, "");
+    assert_ne!(bare, CART);
+    for (spec, is_told) in [(bare.as_str(), true), (CART, false)] {
+        folder.write("cart.robot", spec);
+        let run = folder.run(&["identify", "cart.robot", "log.csv"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let note = "the spec declares no effects, and real joints have friction";
+        assert_eq!(run.stderr.contains(note), is_told, "{}", run.stderr);
+    }
 }
 
 #[test]

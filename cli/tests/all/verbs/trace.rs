@@ -223,8 +223,7 @@ fn a_report_has_the_verdict_the_errors_and_figures_on_one_page() {
     assert!(told.contains("the report"), "{told}");
     let page = folder.read("page/index.html");
     for part in [
-        "Explained",
-        "coulomb-friction",
+        "<strong>Explained: coulomb-friction on rail</strong>",
         "Errors before and after",
         "Change of the spec",
         "<svg",
