@@ -10,6 +10,9 @@ use crate::interrupt::MadeFolder;
 use crate::output::{Files, counted};
 use crate::{CommandLine, Error, output};
 
+/// Head of a page's second section.
+const SYNOPSIS: &str = ".SH SYNOPSIS\n";
+
 /// Print the manual page of the program, or write the pages of all verbs.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -38,26 +41,33 @@ fn pages(command: &Command) -> Vec<(String, String)> {
     std::iter::once(page(command)).chain(below).collect()
 }
 
-/// A page and its file's name. Examples stand line by line, so that they can be copied.
+/// A page and its file's name. The synopsis is the usage of the help, which says what may be repeated; examples stand line by line, so that
+/// they can be copied.
 fn page(command: &Command) -> (String, String) {
     let examples = command.get_after_help().map(ToString::to_string);
+    let usage = command.clone().render_usage().to_string();
     let page = Page::new(command.clone().after_help(Resettable::Reset));
     let name = page.get_filename();
     let mut text = Vec::new();
     page.render(&mut text).expect("a list takes all");
-    let mut text = String::from_utf8_lossy(&text).into_owned();
+    let text = String::from_utf8_lossy(&text);
+    let (head, rest) = text.split_once(SYNOPSIS).expect("every page has one");
+    let (_, rest) = rest.split_once(".SH ").expect("it is not the last");
+    let usage = usage.trim_start_matches("Usage:").lines().map(str::trim);
+    let mut text = format!("{head}{SYNOPSIS}{}.SH {rest}", typed(usage));
     if let Some(examples) = examples {
         let commands = examples.trim_start_matches("Examples:").trim_matches('\n');
-        text.push_str(".SH EXAMPLES\n.nf\n");
-        for line in commands.lines() {
-            // A hyphen is one that is typed, and a line that begins with a dot is none of the page's.
-            text.push_str("\\&");
-            text.push_str(&line.replace('\\', "\\e").replace('-', "\\-"));
-            text.push('\n');
-        }
-        text.push_str(".fi\n");
+        text.push_str(".SH EXAMPLES\n");
+        text.push_str(&typed(commands.lines()));
     }
     (name, text)
+}
+
+/// Lines as they are typed: a hyphen is one, and a line that begins with a dot is none of the page's.
+fn typed<'a>(lines: impl Iterator<Item = &'a str>) -> String {
+    let escaped = lines.map(|line| line.replace('\\', "\\e").replace('-', "\\-"));
+    let lines: String = escaped.map(|line| format!("\\&{line}\n")).collect();
+    format!(".nf\n{lines}.fi\n")
 }
 
 /// All of them, or none where one cannot be written.

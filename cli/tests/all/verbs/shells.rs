@@ -105,6 +105,10 @@ fn the_manual_has_a_page_of_every_verb() {
         assert!(!page.contains("EXTRA"), "{verb}");
     }
     assert!(folder.read("man1/robot-model.1") == page);
+    // What may be repeated is in the synopsis.
+    let usage = ".SH SYNOPSIS\n.nf\n\\&robot\\-model trace [OPTIONS] <SPEC> <LOG>...\n.fi\n.SH";
+    let trace = folder.read("man1/robot-model-trace.1");
+    assert!(trace.contains(usage), "{trace}");
     assert!(
         folder
             .read("man1/robot-model-calibrate-static.1")
