@@ -80,6 +80,8 @@ mod tests {
             .expect_err("a folder")
             .to_string();
         assert!(error.contains("it is a folder"), "{error}");
+        // A name alone is in the folder that one stands in.
+        assert!(OutFile::claim("rows.json".as_ref()).is_ok());
     }
 
     #[test]

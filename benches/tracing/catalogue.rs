@@ -357,6 +357,7 @@ pub static ALL: &[Injection] = &[
         ..NONE
     }
     .of("effect unknown(j) { linear c; torque(j) = c * sin(2 * q(j)) * dq(j) * abs(dq(j)); }"),
+    // Behind the others, whose joints, motions and noise are drawn by their places.
     complete(SLOW, None),
     complete(WANDERING, None),
     complete(FAR, None),

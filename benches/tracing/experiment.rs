@@ -50,6 +50,8 @@ pub struct Experiment {
     pub truth: Option<String>,
     /// Joints that it is on.
     pub joints: Vec<usize>,
+    /// Parameters of what was put in, shapes among them, SI.
+    pub parameters: Vec<(&'static str, f64)>,
     /// Whether its motions repeat.
     pub repeats: bool,
     /// The log that is fitted, the one that is not.
@@ -95,6 +97,7 @@ impl Case {
         Ok(Some(Experiment {
             declared,
             truth: is_said.then_some(machine),
+            parameters: self.linear(size).chain(self.shapes(size)).collect(),
             repeats: draw.repeats,
             joints,
             logs,
@@ -141,16 +144,10 @@ impl Case {
             return Ok(text);
         }
         let model = load(self.arm.name, &text).map_err(said)?;
-        let given = self.injection.shapes.iter().copied();
-        let scaled = self
-            .injection
-            .scaled
-            .iter()
-            .map(|(name, of)| (*name, of(size)));
         let shapes: Vec<(&str, f64)> = if is_open {
-            given.collect()
+            self.injection.shapes.to_vec()
         } else {
-            given.chain(scaled).collect()
+            self.shapes(size).collect()
         };
         let joints = match self.injection.place {
             Place::Log => &[][..],
@@ -170,6 +167,21 @@ impl Case {
         amend(self.arm.name, &text, &[amendment]).map_err(said)
     }
 
+    /// Values of its linear parameters: its size, unless shapes are that.
+    fn linear(&self, size: f64) -> impl Iterator<Item = (&'static str, f64)> {
+        let is_sized = self.injection.scaled.is_empty();
+        let unit = if is_sized { size } else { 1.0 };
+        let linear = self.injection.linear.iter();
+        linear.map(move |(name, value)| (*name, unit * value))
+    }
+
+    /// Values of its shapes.
+    fn shapes(&self, size: f64) -> impl Iterator<Item = (&'static str, f64)> {
+        let scaled = self.injection.scaled.iter();
+        let scaled = scaled.map(move |(name, of)| (*name, of(size)));
+        self.injection.shapes.iter().copied().chain(scaled)
+    }
+
     /// Values of the machine's standard parameters.
     pub(crate) fn standard(&self, compiled: &Compiled, size: f64) -> Vec<f64> {
         let names: Vec<&str> = compiled
@@ -185,14 +197,9 @@ impl Case {
                 .iter()
                 .position(|one| Some(*one) == joint)
                 .unwrap_or(0);
-            let own = self
-                .injection
-                .linear
-                .iter()
-                .find(|(own, _)| Some(*own) == parameter);
+            let own = self.linear(size).find(|(own, _)| Some(*own) == parameter);
             if let (true, Some((_, value))) = (effect == Some(&self.injection.effect()), own) {
-                let is_sized = self.injection.scaled.is_empty();
-                return if is_sized { size * value } else { *value };
+                return value;
             }
             let declared = DECLARED.iter().position(|(one, _)| Some(*one) == effect);
             declared.map_or(0.0, |k| self.arm.joints[joint][k])

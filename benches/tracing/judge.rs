@@ -65,6 +65,9 @@ pub struct Row {
     pub left_share: f64,
     /// Error with what was said over that of the true model, on data that were not fitted, of the worst joint.
     pub after_over_truth: Option<f64>,
+    /// Where the name is exact, by how many of its told deviations each parameter that has one is from what was put in.
+    #[serde(default)]
+    pub deviations: Vec<f64>,
     pub seconds: f64,
     /// What was judged, with the reasons against it.
     pub tried: Vec<String>,
@@ -179,6 +182,12 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         let rival = [(kind.to_owned(), joints.to_vec())];
         judged(Outcome::Explained, &rival) == Mark::Exact
     };
+    let mark = judged(closed.outcome(), &said);
+    let deviations = if mark == Mark::Exact {
+        deviations(case.injection, experiment, &closed)
+    } else {
+        Vec::new()
+    };
     Ok(Row {
         arm: case.arm.name.to_owned(),
         kind: case.injection.kind.to_owned(),
@@ -190,7 +199,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         repeats: experiment.repeats,
         joints: experiment.joints.iter().map(|joint| joint + 1).collect(),
         is_material,
-        mark: judged(closed.outcome(), &said),
+        mark,
         outcome: closed.outcome().name().to_owned(),
         said: said.iter().map(label).collect(),
         is_alternative: rivals.any(|rival| is_it(&rival.kind, &rival.joints)),
@@ -202,6 +211,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
                 .map(|(after, best)| after / best.max(f64::MIN_POSITIVE));
             ratios.fold(0.0, f64::max)
         }),
+        deviations,
         seconds,
         tried: closed.verdict.tried.iter().map(told).collect(),
         baselines: answers
@@ -209,6 +219,20 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
             .map(|answer| first(answer, faults, &judged))
             .collect(),
     })
+}
+
+/// Parameters of the only finding against those of the same effect that was put in.
+fn deviations(injection: &Injection, experiment: &Experiment, closed: &Loop) -> Vec<f64> {
+    let findings = closed.verdict.findings.iter().enumerate();
+    let same = findings.filter(|(_, finding)| finding.effect == injection.effect());
+    let told = same.flat_map(|(place, finding)| closed.parameters(finding, place));
+    let deviations = told.filter_map(|(name, value, std)| {
+        let mut all = experiment.parameters.iter();
+        let (_, truth) = all.find(|(own, _)| *own == name)?;
+        std.filter(|std| *std > 0.0)
+            .map(|std| (value - truth) / std)
+    });
+    deviations.collect()
 }
 
 /// Structure that is left on joints of findings; of those that act on the arm as a whole on any.

@@ -31,7 +31,7 @@ use clap::{ArgAction, Parser};
 use robot_model_benches::ended;
 
 use arms::ARMS;
-use catalogue::{ALL, Injection};
+use catalogue::{ALL, Injection, Place};
 use experiment::Case;
 use judge::Row;
 use rows::{Rows, read};
@@ -69,7 +69,8 @@ struct Options {
     /// Draw detection over sizes, and the methods beside each other, as SVG files of a folder there.
     #[arg(long, value_name = "FOLDER")]
     figures: Option<PathBuf>,
-    /// Write every experiment's row there, as JSON, as soon as it is done; experiments whose rows are there already are not run again.
+    /// Write every experiment's row there, as JSON, as soon as it is done; experiments whose rows are there already are not run again: remove
+    /// the file for another version of the tracer.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
     /// Keep specs and logs of every experiment in a folder there, to look at with `robot-model trace`.
@@ -161,10 +162,16 @@ fn run(options: &Options) -> Result<Vec<Row>, String> {
                 100.0 * case.share,
                 case.seed
             );
-            let row = match rows.row(case) {
+            let is_enough = |row: &Row| {
+                let is_fault = case.injection.place == Place::Log;
+                !options.baselines || is_fault || !row.baselines.is_empty()
+            };
+            let row = match rows.row(case).filter(is_enough) {
                 Some(row) => Ok(Some(row)),
                 None => judged(options, case, &format!("{number:03} {label}")).and_then(|row| {
-                    row.iter().cloned().try_for_each(|row| rows.push(row))?;
+                    row.iter()
+                        .cloned()
+                        .try_for_each(|row| rows.put(case, row))?;
                     Ok(row)
                 }),
             };

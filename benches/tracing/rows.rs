@@ -39,12 +39,13 @@ impl Rows {
         rows.iter().find(|row| is_of(row, case)).cloned()
     }
 
-    /// One more, into the file, too.
+    /// That of an experiment, in place of an earlier one, into the file, too.
     ///
     /// # Errors
     /// The file cannot be written any more.
-    pub fn push(&self, row: Row) -> Result<(), String> {
+    pub fn put(&self, case: &Case, row: Row) -> Result<(), String> {
         let mut rows = self.rows.lock().expect("no panic");
+        rows.retain(|row| !is_of(row, case));
         rows.push(row);
         let Some(path) = &self.path else {
             return Ok(());

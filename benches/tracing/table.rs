@@ -8,6 +8,9 @@ use robot_model_benches::interval::{wilson, worth};
 
 use crate::judge::{Mark, Row};
 
+/// Deviations to either side of a told interval.
+const INTERVAL: f64 = 1.96;
+
 /// Counts of a set of rows.
 struct Counts {
     all: usize,
@@ -197,7 +200,41 @@ fn summary(rows: &[Row]) -> String {
             "error after over that of the true model, median: {median:.3}"
         );
     }
+    let intervals = intervals(rows);
+    let _ = write!(text, "{intervals}");
     let slowest = rows.iter().map(|row| row.seconds).fold(0.0, f64::max);
     let _ = writeln!(text, "slowest: {slowest:.1} s");
+    text
+}
+
+/// How often intervals at 95 % have the value that was put in.
+fn intervals(rows: &[Row]) -> String {
+    let mut text = String::new();
+    let of_arms = ARMS.iter().map(|arm| Some(arm.name));
+    for arm in std::iter::once(None).chain(of_arms) {
+        let mut draws = BTreeMap::<_, usize>::new();
+        let mut deviations = Vec::new();
+        for row in rows
+            .iter()
+            .filter(|row| arm.is_none_or(|arm| row.arm == arm))
+        {
+            if !row.deviations.is_empty() {
+                *draws.entry(row.draw()).or_default() += row.deviations.len();
+                deviations.extend(&row.deviations);
+            }
+        }
+        let all = deviations.len();
+        if all == 0 {
+            continue;
+        }
+        let hits = deviations.iter().filter(|z| z.abs() <= INTERVAL).count();
+        let share = hits as f64 / all as f64;
+        let (low, high) = wilson(share, worth(draws.into_values()));
+        let what = arm.map_or("intervals with the true value".to_owned(), |arm| {
+            format!("  of these on {arm}")
+        });
+        let (share, low, high) = (100.0 * share, 100.0 * low, 100.0 * high);
+        let _ = writeln!(text, "{what} ({all}): {share:.0} % ({low:.0} to {high:.0})");
+    }
     text
 }

@@ -58,7 +58,8 @@ impl Loop {
     }
 
     /// Names, values and deviations of a finding's parameters, or of a lead's as it was traced.
-    pub(crate) fn parameters<'a>(
+    #[must_use]
+    pub fn parameters<'a>(
         &self,
         finding: &'a Finding,
         place: usize,
