@@ -213,7 +213,7 @@ fn intervals(rows: &[Row]) -> String {
     let of_arms = ARMS.iter().map(|arm| Some(arm.name));
     for arm in std::iter::once(None).chain(of_arms) {
         let mut draws = BTreeMap::<_, usize>::new();
-        let mut deviations = Vec::new();
+        let mut deviations: Vec<f64> = Vec::new();
         for row in rows
             .iter()
             .filter(|row| arm.is_none_or(|arm| row.arm == arm))
