@@ -40,13 +40,15 @@ impl Stage {
     /// The first finding of which nothing is left in a model that was identified with all of them: none of its parameters stands out of its
     /// deviation.
     pub(super) fn vanished(&self, findings: &[Finding]) -> Option<usize> {
-        let is_told = |(_, value, std): (&str, f64, Option<f64>)| {
-            std.is_none_or(|std| value.abs() > TOLD * std)
-        };
         (0..findings.len()).find(|&place| {
             let effect = self.effect_name(findings.len(), place);
             let parameters = self.parameters(&findings[place], effect.as_deref());
-            !parameters.is_empty() && !parameters.into_iter().any(is_told)
+            // What others do as well says nothing.
+            let own = parameters.into_iter();
+            let own: Vec<f64> = own
+                .filter_map(|(_, value, std)| std.map(|std| value.abs() - TOLD * std))
+                .collect();
+            !own.is_empty() && own.iter().all(|beyond| *beyond <= 0.0)
         })
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn parameters<'a>(closed: &'a Loop, found: &'a [Found]) -> Vec<Parame
     for own in found {
         let row = Parameter {
             name: &own.name,
-            value: Some(own.value),
+            value: own.std.map(|_| own.value),
             std: own.std,
             interval: None,
         };

@@ -156,8 +156,9 @@ enum Joints {
 #[derive(Serialize)]
 pub(super) struct ParameterReport<'a> {
     pub(super) name: &'a str,
+    /// Where others do the same, that with these at zero.
     pub(super) value: f64,
-    /// Beside all other unknowns, shapes among them; none where another unknown does the same.
+    /// Beside all other unknowns, shapes among them; none where another unknown or a sum of others does the same.
     pub(super) std: Option<f64>,
     /// Ends of the interval that holds the value with 95 %.
     pub(super) interval: Option<[f64; 2]>,

@@ -70,7 +70,7 @@ pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
 }
 
 /// A parameter of a finding with its unit, and what stands beside its value where there is a deviation: `fc = 1.82 +- 0.01 N m`. The value
-/// has the decimals of two digits of the deviation.
+/// has the decimals of two digits of the deviation. One without any has no value of its own.
 pub(super) fn parameter(
     closed: &Loop,
     finding: &Finding,
@@ -81,13 +81,14 @@ pub(super) fn parameter(
         "" | "1" => String::new(),
         unit => format!(" {unit}"),
     };
-    match std.filter(|std| *std > 0.0) {
-        Some(std) => {
+    match std {
+        Some(std) if std > 0.0 => {
             let decimals = decimals(std, 2);
             let beside = beside(decimals);
             format!("{name} = {value:.decimals$}{beside}{unit}")
         }
-        None => format!("{name} = {}{unit}", significant(value, 4)),
+        Some(_) => format!("{name} = {}{unit}", significant(value, 4)),
+        None => format!("{name} not separable from other parameters"),
     }
 }
 

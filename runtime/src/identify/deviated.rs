@@ -106,7 +106,22 @@ impl Identify {
     /// Standard deviations of a solution with further columns, slopes of its torque by shapes, beside its own; none of what the logs do not
     /// tell from others with all of them. Shapes stay where they were found.
     pub(crate) fn beside_slopes(&self, whole: &Stack, solution: &Solution) -> Vec<Option<f64>> {
-        told(whole, solution, &|with| self.deviations(whole, with))
+        let joint = joint(whole, solution);
+        told(&joint, solution, &|with| self.deviations(whole, with))
+    }
+
+    /// The same, and none of what stands for a sum with others either: its value is that with the others at zero.
+    pub(crate) fn apart_beside_slopes(
+        &self,
+        whole: &Stack,
+        solution: &Solution,
+    ) -> Vec<Option<f64>> {
+        let joint = joint(whole, solution);
+        let mut std = told(&joint, solution, &|with| self.deviations(whole, with));
+        for shared in &joint.shared {
+            std[shared.lead] = None;
+        }
+        std
     }
 
     /// The same, of noise alone: what rows at turns move values by is no part of them.
@@ -117,7 +132,7 @@ impl Identify {
     ) -> Vec<Option<f64>> {
         let of_noise =
             |with: &Solution| hac::deviations(whole, with, &self.row_weights(whole, with));
-        told(whole, solution, &of_noise)
+        told(&joint(whole, solution), solution, &of_noise)
     }
 
     /// Standard deviations of a solution of least squares; see [`hac`]. What rows at turns move it by is a part of them.
@@ -207,19 +222,67 @@ impl Identify {
     }
 }
 
+/// What rows tell of unknowns with further columns, at a solution's weights.
+fn joint(whole: &Stack, solution: &Solution) -> Solution {
+    Factors::new(whole).solve(&solution.scale, &vec![1.0; whole.dof()])
+}
+
 /// Deviations of a solution with further columns that stay where they are; none of what the rows do not tell.
 fn told(
-    whole: &Stack,
+    joint: &Solution,
     solution: &Solution,
     deviations: &dyn Fn(&Solution) -> Vec<f64>,
 ) -> Vec<Option<f64>> {
-    let joint = Factors::new(whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
     let mut with_shapes = solution.clone();
-    with_shapes.estimate.resize(whole.unknowns.len(), 0.0);
-    with_shapes.unexcited = joint.unexcited;
+    with_shapes.estimate.resize(joint.estimate.len(), 0.0);
+    with_shapes.unexcited.clone_from(&joint.unexcited);
     let std = deviations(&with_shapes);
-    let is_told = |k: &usize| !with_shapes.unexcited.contains(k);
+    let is_told = |k: &usize| !joint.unexcited.contains(k);
     (0..std.len())
         .map(|k| is_told(&k).then_some(std[k]))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::Unknown;
+    use crate::identify::JointRows;
+
+    /// `a x + b y + c (x + y)`, `d z`: of three unknowns two sums are told, and none alone.
+    #[test]
+    fn what_stands_for_a_sum_is_not_told_alone() {
+        const ROWS: i32 = 400;
+        let waves = [0.11, 0.23, 0.37]
+            .map(|rate| -> Vec<f64> { (0..ROWS).map(|k| (rate * f64::from(k)).sin()).collect() });
+        let [x, y, z] = &waves;
+        let sum: Vec<f64> = x.iter().zip(y).map(|(x, y)| x + y).collect();
+        let noise = |k: usize| 0.01 * (k as f64 * 2.9).cos();
+        let terms = sum.iter().zip(z).enumerate();
+        let tau: Vec<f64> = terms
+            .map(|(k, (sum, z))| 2.0 * sum + z + noise(k))
+            .collect();
+        let stack = Stack {
+            unknowns: ["a", "b", "c", "d"]
+                .map(|name| Unknown {
+                    name: name.to_owned(),
+                    nonnegative: false,
+                })
+                .to_vec(),
+            joints: vec![JointRows {
+                tau: tau.clone(),
+                target: tau,
+                columns: [x, y, &sum, z].into_iter().cloned().enumerate().collect(),
+            }],
+            ..Stack::default()
+        };
+        let solution = Factors::new(&stack).ordinary(&[1.0]);
+        let identify = Identify::default();
+        let beside = identify.beside_slopes(&stack, &solution);
+        assert_eq!(beside.iter().filter(|std| std.is_none()).count(), 1);
+        let apart = identify.apart_beside_slopes(&stack, &solution);
+        let is_told: Vec<bool> = apart.iter().map(Option::is_some).collect();
+        assert_eq!(is_told, [false, false, false, true]);
+        assert_eq!(apart[3], beside[3]);
+    }
 }

@@ -149,7 +149,7 @@ impl Search<'_> {
                 let noise_power = above(&raw, &self.beyond_all(&raw), &filtered);
                 let segments = &state.stack.segments;
                 let structure = self.structure_in(segments, &raw, &filtered, &|_, _| 0.0);
-                let std = self.identify.beside_slopes(&stack, &plain);
+                let std = self.identify.apart_beside_slopes(&stack, &plain);
                 let std_of_noise = self.identify.of_noise_beside_slopes(&stack, &plain);
                 return Ok(is_inside.then(|| Changed {
                     shapes: own,

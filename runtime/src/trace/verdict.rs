@@ -48,9 +48,9 @@ impl Evidence {
 pub struct FoundParameter {
     /// Name in the effect's definition.
     pub name: String,
-    /// Estimate, SI.
+    /// Estimate, SI; where others do the same, that with these at zero.
     pub value: f64,
-    /// Standard deviation beside all other unknowns, shapes among them; none where another unknown does the same.
+    /// Standard deviation beside all other unknowns, shapes among them; none where another unknown or a sum of others does the same.
     pub std: Option<f64>,
     /// Whether it is a shape parameter.
     pub shape: bool,

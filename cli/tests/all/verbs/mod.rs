@@ -63,6 +63,7 @@ mod possible;
 mod printed;
 mod readings;
 mod reproducible;
+mod separable;
 mod shells;
 mod simulate;
 mod slips;
