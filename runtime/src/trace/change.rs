@@ -16,6 +16,7 @@ use super::raw::above;
 use super::residual::raw_residuals;
 use super::search::{Search, State};
 use super::structure::Structure;
+use super::wander;
 
 /// Steps of Gauss-Newton, and the step, in a shape's deviations or of the shape itself, that is none.
 const STEPS: usize = 8;
@@ -149,7 +150,9 @@ impl Search<'_> {
                 let noise_power = above(&raw, &self.beyond_all(&raw), &filtered);
                 let segments = &state.stack.segments;
                 let structure = self.structure_in(segments, &raw, &filtered, &|_, _| 0.0);
-                let std = self.identify.apart_beside_slopes(&stack, &plain);
+                let mut std = self.identify.apart_beside_slopes(&stack, &plain);
+                let own_unknowns = unknowns..stack.unknowns.len();
+                wander::widen(&mut std, own_unknowns, &stack, &plain.sigma, &filtered);
                 let std_of_noise = self.identify.of_noise_beside_slopes(&stack, &plain);
                 return Ok(is_inside.then(|| Changed {
                     shapes: own,

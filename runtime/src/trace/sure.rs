@@ -6,6 +6,7 @@ use super::gate::Judged;
 use super::rows::Rows;
 use super::search::{Accepted, Search, State};
 use super::verdict::Evidence;
+use super::wander;
 
 /// Deviations that a parameter is told by.
 const TOLD: f64 = 2.0;
@@ -23,7 +24,8 @@ const MUCH_PERCENT: (f64, f64) = (20.0, 7.5);
 
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
-    /// torque linearized in the shapes. None of what another unknown or a sum of others can stand for, and of changes of the arm.
+    /// torque linearized in the shapes, and with what zeros that walk make of it. None of what another unknown or a sum of others can
+    /// stand for, and of changes of the arm.
     pub(super) fn deviations(&self, state: &State) -> Vec<Vec<Option<f64>>> {
         let mut stack = state.stack.clone();
         let rows = Rows::new(&self.prepared, &state.stack);
@@ -37,7 +39,16 @@ impl Search<'_> {
             places.push((place, shapes..shapes + unknowns.len()));
             stack.append(&unknowns, &slopes);
         }
-        let std = self.identify.apart_beside_slopes(&stack, &state.solution);
+        let mut std = self.identify.apart_beside_slopes(&stack, &state.solution);
+        let own = places.iter().cloned();
+        let own = own.flat_map(|(linear, shapes)| linear.chain(shapes));
+        wander::widen(
+            &mut std,
+            own,
+            &stack,
+            &state.solution.sigma,
+            &state.residuals,
+        );
         let mut places = places.into_iter();
         let of_effect = |effect: &Accepted| {
             if effect.changed.is_some() {
