@@ -16,21 +16,25 @@ impl Stage {
     }
 
     /// Names, values and deviations of a finding's parameters: as the model was identified with them, else as they were traced. Shapes of a
-    /// spec are fixed, so that deviations with it know nothing of theirs.
+    /// spec are fixed, so that deviations with it know nothing of theirs; those of an arm that lacked a change as well are of that.
     fn parameters<'a>(
         &self,
         finding: &'a Finding,
         effect: Option<&str>,
     ) -> Vec<(&'a str, f64, Option<f64>)> {
+        let has_shapes = finding.parameters.iter().any(|one| one.shape);
+        let is_afresh = finding.precedes_change && !has_shapes;
         let all = finding.parameters.iter().map(|traced| {
             let afresh = effect.and_then(|effect| {
                 let full = format!("{effect}.{}", traced.name);
                 let mut all = self.estimate.parameters.iter();
                 all.find(|one| one.name == full)
             });
-            let std = traced
-                .std
-                .map(|std| afresh.map_or(std, |afresh| std.max(afresh.std)));
+            let std = traced.std.map(|std| match afresh {
+                Some(afresh) if is_afresh => afresh.std,
+                Some(afresh) => std.max(afresh.std),
+                None => std,
+            });
             let value = afresh.map_or(traced.value, |afresh| afresh.value);
             (traced.name.as_str(), value, std)
         });

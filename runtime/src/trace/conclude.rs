@@ -174,6 +174,7 @@ fn findings(state: &State, std: &[Vec<Option<f64>>]) -> Vec<Finding> {
             joints: candidate.joints().to_vec(),
             parameters,
             evidence: effect.evidence.clone(),
+            precedes_change: false,
         })
     });
     found.collect()

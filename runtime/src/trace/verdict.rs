@@ -70,6 +70,8 @@ pub struct Finding {
     pub parameters: Vec<FoundParameter>,
     /// Why it was accepted.
     pub evidence: Evidence,
+    /// Whether a change of the arm was found after it: evidence and deviations are those of the arm without.
+    pub precedes_change: bool,
 }
 
 /// A candidate that was judged, at its best shapes.
@@ -342,7 +344,13 @@ impl Verdict {
         let is_doubted = next.outcome == Outcome::Unexplained
             && (places == 0 || !next.leads.is_empty() || !next.is_settled);
         let is_explained = !is_doubted;
-        let mut found = self.findings;
+        // The last of them is the change.
+        let earlier = self.findings.into_iter().enumerate();
+        let earlier = earlier.map(|(place, finding)| Finding {
+            precedes_change: finding.precedes_change || place + 1 < places,
+            ..finding
+        });
+        let mut found: Vec<Finding> = earlier.collect();
         let later = if is_explained {
             next.findings
         } else {

@@ -48,7 +48,20 @@ fn finding() -> Finding {
         joints: vec![1],
         parameters: Vec::new(),
         evidence: evidence(40.0),
+        precedes_change: false,
     }
+}
+
+#[test]
+fn what_was_found_before_a_change_of_the_arm_says_so() {
+    let of = |count| verdict(Outcome::Explained, vec![finding(); count], true);
+    let both = of(2).followed_by(of(1)).followed_by(of(1));
+    let told: Vec<bool> = both
+        .findings
+        .iter()
+        .map(|one| one.precedes_change)
+        .collect();
+    assert_eq!(told, [true, true, false, false]);
 }
 
 #[test]
