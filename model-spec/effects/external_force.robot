@@ -16,9 +16,9 @@
 effect external_force(j) {
     /// Force along the axes of the base, N.
     linear fx, fy, fz;
-    /// When it begins, s since the start of the log.
+    /// When it begins after the start of the log, s.
     shape start in 0 .. 60 step 2;
-    /// When it ends, s since the start of the log.
+    /// When it ends after the start of the log, s.
     shape end in 0 .. 60 step 2;
     let touched = if time < start { 0 } else if time < end { 1 } else { 0 };
     force(j) = [fx * touched, fy * touched, fz * touched];

@@ -11,7 +11,7 @@
 /// Confused with `encoder_offset`: at a constant speed a late position is an offset position. Distinguished by motion in both
 /// directions.
 effect time_delay() {
-    /// Seconds; negative where the torque comes early.
+    /// By how much the torque is late, s. Negative where it comes early.
     shape delay in -0.03 .. 0.03 step 0.005;
     delay = delay;
 }

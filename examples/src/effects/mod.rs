@@ -49,7 +49,12 @@ pub fn contents(summary: &str) -> Option<String> {
 
 /// Its name in words.
 fn title(effect: &EffectDefinition) -> String {
-    page::capital(&effect.name.replace('_', " "))
+    const NAMES: [(&str, &str); 2] = [("lugre", "LuGre"), ("coulomb", "Coulomb")];
+    let words = effect.name.split('_').map(|word| {
+        let name = NAMES.iter().find(|(plain, _)| *plain == word);
+        name.map_or(word, |(_, written)| written)
+    });
+    page::capital(&words.collect::<Vec<_>>().join(" "))
 }
 
 /// What reports and JSON call it.

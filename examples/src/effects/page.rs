@@ -147,7 +147,7 @@ fn parameters(effect: &EffectDefinition) -> String {
 
 /// Pairs that it is one of, whichever of the two says so.
 fn confusions(effect: &EffectDefinition) -> String {
-    let mut text = String::from("\n## What is taken for it\n");
+    let mut text = String::from("\n## What looks like it\n");
     for pair in partings() {
         let [one, other] = pair.effects;
         let other = match (one.name == effect.name, other.name == effect.name) {
@@ -160,7 +160,7 @@ fn confusions(effect: &EffectDefinition) -> String {
         let why = if one.name == effect.name {
             capital(&confusion.why)
         } else {
-            format!("For `{}`: {}", one.name, confusion.why)
+            format!("Seen from `{}`: {}", one.name, confusion.why)
         };
         write!(
             text,
