@@ -48,6 +48,13 @@ pub fn place_of(file: &str, text: &str) -> Option<(usize, usize)> {
     Some((line, column))
 }
 
+/// Line and column, from 1, of the last letter that is no space.
+fn end(text: &str) -> (usize, usize) {
+    let written = text.trim_end();
+    let last = written.lines().last().unwrap_or(written);
+    (written.lines().count().max(1), last.chars().count().max(1))
+}
+
 fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
     let notes = Notes {
         room: Cell::new(Some(most)),
@@ -70,7 +77,11 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
             format!("it is not JSON: {said}; repair it here")
         };
         Fault {
-            line: Some((error.line(), error.column())),
+            line: Some(if error.is_eof() {
+                end(text)
+            } else {
+                (error.line(), error.column())
+            }),
             reason,
         }
     })?;
@@ -263,6 +274,7 @@ mod tests {
             ("{}\n{}", (2, 1), "trailing characters"),
             ("[1e999]", (1, 6), "number out of range"),
             ("[NaN]", (1, 2), "expected value"),
+            ("{\"a\": [1,\n 2\n\n", (2, 2), "EOF while parsing a list"),
         ] {
             let wanted = format!("it is not JSON: {said}; repair it here");
             assert_eq!(refused(text), (Some(line), wanted), "{text}");

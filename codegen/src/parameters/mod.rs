@@ -240,7 +240,8 @@ fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), ValuesError> {
         _ => ("are base parameters", "these"),
     };
     Err(format!(
-        "{} {are}, and {ones} are accepted only as a whole set, with no others: {robot} has {}{}{}",
+        "{} {are}, and {ones} are accepted only as a whole set, with no others: {robot} has {}{}{}; give standard parameters by name, or a result \
+         of `identify` for this spec",
         names(&regrouped),
         counted(base.len(), "base parameter"),
         part("the file lacks", &lacks),

@@ -57,7 +57,7 @@ fn eval_refuses_states_of_another_arm() {
     );
     assert!(
         said("{\n")
-            .starts_with("error: states.json:2:0: it is not JSON: EOF while parsing an object")
+            .starts_with("error: states.json:1:1: it is not JSON: EOF while parsing an object")
     );
     let typed = said(r#"{"states":[{"q":[0,0],"dq":[0,"x"],"ddq":[0,0]}]}"#);
     assert!(

@@ -213,12 +213,14 @@ fn parts_of_a_set_of_base_parameters_are_told() {
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.izzr": 1}"#,
             ": `lower.izzr`, `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, \
-             with no others: Pendulum has 6 base parameters, the file lacks `lower.my`",
+             with no others: Pendulum has 6 base parameters, the file lacks `lower.my`; give standard parameters by name, or a \
+             result of `identify` for this spec",
         ),
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izz": 1}"#,
             ": `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no others: \
-             Pendulum has 6 base parameters, the file lacks `lower.izzr`, and also has `lower.izz`",
+             Pendulum has 6 base parameters, the file lacks `lower.izzr`, and also has `lower.izz`; give standard \
+             parameters by name, or a result of `identify` for this spec",
         ),
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izrr": 1}"#,
