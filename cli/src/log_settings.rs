@@ -1,6 +1,8 @@
 //! Where logs have their columns beside the spec: `robot-model.toml` in a log's folder, or the file that was asked for.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -64,6 +66,14 @@ impl LogSettings {
         let Some(path) = self.of(log) else {
             return Ok(columns(model, &model.log));
         };
+        if !self.is_given() && is_bag(log) && !names_joints(&read_text(&path)?) {
+            progress.note(&format!(
+                "note: {} names columns of tables and is not used for the bag {}",
+                path.display(),
+                log.display()
+            ));
+            return Ok(columns(model, &model.log));
+        }
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         if !read.contains_key(&path) {
             read.insert(path.clone(), settings(&path, model, progress)?);
@@ -89,6 +99,21 @@ impl LogSettings {
         }
         Ok(unit.unwrap_or(1.0))
     }
+}
+
+/// Whether a log is a bag, by its first bytes. A pipe is not read for that.
+fn is_bag(log: &Path) -> bool {
+    const MAGIC: &[u8; 5] = b"\x89MCAP";
+    let is_file = log.metadata().is_ok_and(|found| found.is_file());
+    let mut first = [0; MAGIC.len()];
+    let mut read = || File::open(log)?.read_exact(&mut first);
+    is_file && read().is_ok() && first == *MAGIC
+}
+
+/// Whether settings are of bags, which have a topic and fields of joints: others beside a bag are of the tables there.
+fn names_joints(settings: &str) -> bool {
+    let of_bags = ["topic", ".position", ".velocity", ".effort"];
+    of_bags.iter().any(|words| settings.contains(words))
 }
 
 /// Reads a file, and says so.

@@ -190,8 +190,8 @@ fn alone(all: &[Likeness], joints: &[String]) -> Option<String> {
         .map(|(found, name)| format!("`{name}` {}", short(found.factor)))
         .collect();
     Some(format!(
-        "logged torques are those of the spec's nominal links times {}: are gains and units of {} right, and do links and payload agree \
-         with the spec? If a gain is wrong, parameters are wrong by the same factor",
+        "logged torques are those of the spec's nominal links times {}: are gains and units of {} right, and do links, rotors \
+         (`motor_inertia`) and payload agree with the spec? If a gain is wrong, parameters are wrong by the same factor",
         factors.join(", "),
         match alone.as_slice() {
             [one, other] => format!("`{one}` and `{other}`"),

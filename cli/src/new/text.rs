@@ -212,7 +212,7 @@ fn effects(lines: &mut Lines, first: &str) {
     lines.line("    // Effects beside rigid bodies: on all joints, on some (`on a, b`), on pairs (`on (a, b)`), or on the arm as a whole.");
     lines.line(&format!("    // `stribeck(vs = 0.1) on {first};` fixes a shape parameter; without a value it is identified. Do not declare \
                          effects you only"));
-    lines.line("    // suspect: `trace` looks for it in the logs.");
+    lines.line("    // suspect: `trace` looks for them in the logs.");
     lines.line("    effects {");
     lines.line("        viscous_friction on all;");
     lines.line("        coulomb_friction on all;");

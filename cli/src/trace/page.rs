@@ -271,7 +271,10 @@ fn tried(page: &mut Page, closed: &Loop) {
 
 fn data(page: &mut Page, closed: &Loop) {
     if closed.faults.is_empty() {
-        page.text("No fault of the logs changes a joint's error.");
+        page.text(
+            "No fault of the logs is part of the verdict. What the checks below say of errors is beside the declared model: a missing effect \
+             may look like a delay there.",
+        );
     } else {
         let faults = closed.faults.iter();
         let told = faults.map(|fault| format!("{}: {}", fault.kind, fault.told));

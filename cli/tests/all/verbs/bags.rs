@@ -56,6 +56,26 @@ fn a_bag_has_the_fit_of_the_same_log_as_csv() {
     assert!(said.contains("it is a log, not a factor"), "{said}");
 }
 
+/// Settings of the tables in a folder are none of a bag beside them; those that name its topic are.
+#[test]
+fn settings_of_tables_are_none_of_bags() {
+    let folder = folder();
+    let plain = fit(&folder, "arm.robot", "log.mcap");
+    let of_tables = "[log]\nq = { columns = [\"axis1\", \"axis2\"], unit = \"deg\" }\ntau = { columns = [\"i1\", \"i2\"], unit = \"A\" }\n";
+    folder.write("robot-model.toml", of_tables);
+    let run = folder.run(&["identify", "arm.robot", "log.mcap", "--json", "fit.json"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let note = "robot-model.toml names columns of tables and is not used for the bag log.mcap";
+    assert!(run.stderr.contains(note), "{}", run.stderr);
+    assert_eq!(
+        json(&folder.read("fit.json"))["parameters"],
+        plain["parameters"]
+    );
+    folder.write("robot-model.toml", "[log]\ntopic = \"/other\"\n");
+    let said = folder.refuse(&["identify", "arm.robot", "log.mcap"]);
+    assert!(said.contains("/other"), "{said}");
+}
+
 #[test]
 fn joints_and_topics_are_named_in_the_spec() {
     let folder = folder();

@@ -82,7 +82,7 @@ impl fmt::Display for Fault {
                 std,
                 gain,
             } => {
-                let (rest, way_out) = late.words();
+                let (rest, way_out) = late.words(*delay);
                 write!(
                     f,
                     "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {rest} are biased by that; correcting it reduces the \
@@ -118,9 +118,13 @@ fn said_of_scale(f: &mut fmt::Formatter<'_>, channel: &str, factor: f64) -> fmt:
 }
 
 impl LateChannel {
-    /// Against what it is late and what is found so, and the way out.
-    const fn words(self) -> (&'static str, &'static str) {
+    /// Against what it is late by so much and what is found so, and the way out. No recorder has torques before their time.
+    fn words(self, delay: f64) -> (&'static str, &'static str) {
         match self {
+            Self::Torque if delay < 0.0 => (
+                "the position, and values of friction and inertia",
+                "either the position is late, or an undeclared effect looks like it, such as the inertia of a rotor: `trace` looks for it",
+            ),
             Self::Torque => (
                 "the position, and values of friction and inertia",
                 "declare `time_delay;` in `effects` to identify one delay of all joints, up to 0.03 s; correct longer ones in the log",
