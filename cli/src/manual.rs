@@ -66,8 +66,8 @@ fn page(command: &Command) -> (String, String) {
 /// Lines as they are typed: a hyphen is one, and a line that begins with a dot is none of the page's.
 fn typed<'a>(lines: impl Iterator<Item = &'a str>) -> String {
     let escaped = lines.map(|line| line.replace('\\', "\\e").replace('-', "\\-"));
-    let lines: String = escaped.map(|line| format!("\\&{line}\n")).collect();
-    format!(".nf\n{lines}.fi\n")
+    let lines: Vec<String> = escaped.map(|line| format!("\\&{line}\n")).collect();
+    format!(".nf\n{}.fi\n", lines.concat())
 }
 
 /// All of them, or none where one cannot be written.

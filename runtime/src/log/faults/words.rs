@@ -123,7 +123,7 @@ impl LateChannel {
         match self {
             Self::Torque if delay < 0.0 => (
                 "the position, and values of friction and inertia",
-                "either the position is late, or an undeclared effect looks like it, such as the inertia of a rotor: `trace` looks for it",
+                "either the position is late, or an undeclared effect looks like it, such as the inertia of a rotor: `trace` looks for it; `time_delay;` in `effects` identifies one delay of all joints",
             ),
             Self::Torque => (
                 "the position, and values of friction and inertia",
