@@ -2,7 +2,7 @@
 
 use robot_model::identify::Identify;
 use robot_model::trace::{Outcome, Tried};
-use robot_model_cli::close_the_loop::{Loop, Progress, close};
+use robot_model_cli::close_the_loop::{Loop, Progress, Stage, close};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
 use robot_model_spec::load;
@@ -132,13 +132,6 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         .as_deref()
         .map(|truth| true_errors(&name, truth, experiment, &closed))
         .transpose()?;
-    let errors = |stage: &robot_model_cli::close_the_loop::Stage| {
-        stage
-            .validation
-            .as_ref()
-            .map(|errors| errors.rmse.clone())
-            .unwrap_or_default()
-    };
     let (before, after) = (errors(&closed.before), errors(closed.after()));
     let costs = best.as_ref().map(|best| {
         before
@@ -233,6 +226,12 @@ fn deviations(injection: &Injection, experiment: &Experiment, closed: &Loop) -> 
             .map(|std| (value - truth) / std)
     });
     deviations.collect()
+}
+
+/// Errors on the log that was not fitted, of each joint.
+fn errors(stage: &Stage) -> Vec<f64> {
+    let validation = stage.validation.as_ref();
+    validation.map_or_else(Vec::new, |errors| errors.rmse.clone())
 }
 
 /// Structure that is left on joints of findings; of those that act on the arm as a whole on any.

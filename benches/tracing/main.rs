@@ -119,9 +119,17 @@ fn main() -> ExitCode {
     } else {
         // Rows of earlier runs, one run after the other.
         let runs: Result<Vec<_>, _> = options.from.iter().map(|path| read(path)).collect();
-        runs.map(|runs| runs.concat())
+        runs.map(|runs| (runs.concat(), 0))
     };
-    ended(done.and_then(|rows| tell(&options, &rows)))
+    ended(done.and_then(|(rows, failed)| {
+        tell(&options, &rows)?;
+        match failed {
+            0 => Ok(()),
+            _ => Err(format!(
+                "{failed} experiments failed, see above, and are in no table"
+            )),
+        }
+    }))
 }
 
 /// Tables to standard output; figures where they are wanted.
@@ -144,11 +152,11 @@ fn cannot(what: &str, path: &Path, error: &dyn Display) -> String {
     format!("cannot {what} `{}`: {error}", path.display())
 }
 
-/// All experiments, in order.
-fn run(options: &Options) -> Result<Vec<Row>, String> {
+/// All experiments, in order, and how many failed.
+fn run(options: &Options) -> Result<(Vec<Row>, usize), String> {
     let cases = options.cases()?;
     let rows = Rows::of(options.json.as_deref())?;
-    let next = AtomicUsize::new(0);
+    let [next, failed] = [AtomicUsize::new(0), AtomicUsize::new(0)];
     let mine = || {
         let number = next.fetch_add(1, Ordering::Relaxed);
         cases.get(number).map(|case| (number + 1, case))
@@ -178,7 +186,10 @@ fn run(options: &Options) -> Result<Vec<Row>, String> {
             let text = match row {
                 Ok(Some(row)) => told(&row),
                 Ok(None) => "not there in this size".to_owned(),
-                Err(error) => format!("failed: {error}"),
+                Err(error) => {
+                    failed.fetch_add(1, Ordering::Relaxed);
+                    format!("failed: {error}")
+                }
             };
             let of = cases.len();
             let _ = writeln!(std::io::stderr(), "[{number}/{of}] {label}: {text}");
@@ -189,7 +200,8 @@ fn run(options: &Options) -> Result<Vec<Row>, String> {
             scope.spawn(work);
         }
     });
-    Ok(cases.iter().filter_map(|case| rows.row(case)).collect())
+    let rows = cases.iter().filter_map(|case| rows.row(case)).collect();
+    Ok((rows, failed.into_inner()))
 }
 
 /// One experiment, kept under its name where that is wanted.

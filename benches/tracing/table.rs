@@ -11,6 +11,9 @@ use crate::judge::{Mark, Row};
 /// Deviations to either side of a told interval.
 const INTERVAL: f64 = 1.96;
 
+/// What an interval should next to never miss by.
+const FAR: f64 = 3.0;
+
 /// Counts of a set of rows.
 struct Counts {
     all: usize,
@@ -207,7 +210,7 @@ fn summary(rows: &[Row]) -> String {
     text
 }
 
-/// How often intervals at 95 % have the value that was put in.
+/// How often intervals at 95 %, of parameters that have one, have the value that was put in, where the name is exact.
 fn intervals(rows: &[Row]) -> String {
     let mut text = String::new();
     let of_arms = ARMS.iter().map(|arm| Some(arm.name));
@@ -230,11 +233,17 @@ fn intervals(rows: &[Row]) -> String {
         let hits = deviations.iter().filter(|z| z.abs() <= INTERVAL).count();
         let share = hits as f64 / all as f64;
         let (low, high) = wilson(share, worth(draws.into_values()));
-        let what = arm.map_or("intervals with the true value".to_owned(), |arm| {
-            format!("  of these on {arm}")
-        });
+        let what = arm.map_or(
+            "intervals of exact names with the true value".to_owned(),
+            |arm| format!("  of these on {arm}"),
+        );
         let (share, low, high) = (100.0 * share, 100.0 * low, 100.0 * high);
-        let _ = writeln!(text, "{what} ({all}): {share:.0} % ({low:.0} to {high:.0})");
+        let far = deviations.iter().filter(|z| z.abs() > FAR).count();
+        let far = 100.0 * far as f64 / all as f64;
+        let _ = writeln!(
+            text,
+            "{what} ({all}): {share:.0} % ({low:.0} to {high:.0}); {far:.0} % are further than {FAR} deviations away"
+        );
     }
     text
 }

@@ -293,12 +293,7 @@ impl Judged<'_> {
 
 /// Whether the first order of a change, which all joints may feel, says that it may be worth a trial as what it is.
 pub(super) fn is_promising(judged: &Judged) -> bool {
-    let joints: Vec<usize> = (0..judged.evidence.raw_percent.len()).collect();
-    !is_chance(
-        &judged.evidence,
-        &joints,
-        judged.trial.candidate.is_of_time(),
-    )
+    !judged.refusals.contains(&Refusal::Chance)
 }
 
 /// Held-out raw error of `one` relative to `other` on the joint where it is worst, percent.
