@@ -77,7 +77,7 @@ impl Loop {
 
 #[cfg(test)]
 mod tests {
-    use robot_model::trace::Outcome;
+    use robot_model::trace::{Finding, Outcome};
 
     use crate::close_the_loop::close;
     use crate::progress::Progress;
@@ -101,5 +101,23 @@ mod tests {
         let std = findings[0].parameters[0].std.expect("a deviation");
         friction.value = 1.5 * std.max(friction.std);
         assert_eq!(stage.vanished(findings), Some(0));
+    }
+
+    /// A change of the arm that was found later leaves less noise than a law was traced in.
+    #[test]
+    fn a_law_before_a_change_has_the_deviations_of_the_arm_with_it() {
+        let closed = close("cart.robot", CART, &[log()], None, &Progress::new())
+            .unwrap_or_else(|error| panic!("{error}"));
+        let mut finding = closed.verdict.findings[0].clone();
+        let std = |finding: &Finding| closed.parameters(finding, 0)[0].2.expect("a deviation");
+        let own = std(&finding);
+        finding.parameters[0].std = Some(35.0 * own);
+        assert!((std(&finding) / own - 35.0).abs() < 1e-9);
+        finding.precedes_change = true;
+        let parameters = &closed.after().estimate.parameters;
+        let mut friction = parameters.iter();
+        let friction = friction.find(|one| one.name == "rail.coulomb_friction.fc");
+        let afresh = friction.expect("dry friction").std;
+        assert!((std(&finding) - afresh).abs() < 1e-12 && afresh < 2.0 * own);
     }
 }
