@@ -78,7 +78,7 @@ impl Writer<'_> {
         Equation { left, right }
     }
 
-    /// As definitions have it, but a delay, which they have by its name alone.
+    /// As definitions have it.
     fn act_in_text(act: &Act, joint: &str, values: &[String]) -> (String, String) {
         let list = format!("[{}]", values.join(", "));
         match act {
@@ -86,10 +86,7 @@ impl Writer<'_> {
             Act::Body { .. } => (format!("body({joint})"), list),
             Act::Tilt { .. } => ("tilt".to_owned(), list),
             Act::Position { .. } => (format!("position({joint})"), values.concat()),
-            Act::Delay { .. } => (
-                "tau_log(t)".to_owned(),
-                format!("tau(t - {})", values.concat()),
-            ),
+            Act::Delay { .. } => ("delay".to_owned(), values.concat()),
             other => unreachable!("an act of the language is not written here: {other:?}"),
         }
     }

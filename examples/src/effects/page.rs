@@ -82,11 +82,16 @@ fn given(shape: &ShapeParameter) -> String {
 }
 
 fn equations(effect: &EffectDefinition) -> String {
-    let mut text = String::from("\n## Equation\n\n```text\n");
-    for Equation { left, right, .. } in effect_equations(effect, Style::Text) {
-        writeln!(text, "{left} = {right}").expect("a string takes all");
+    let mut text = String::from("\n## Equation\n");
+    // As the language has it, where that says something: a delay is its own name.
+    let equations = effect_equations(effect, Style::Text);
+    if equations.iter().any(|one| one.left != one.right) {
+        text.push_str("\n```text\n");
+        for Equation { left, right, .. } in equations {
+            writeln!(text, "{left} = {right}").expect("a string takes all");
+        }
+        text.push_str("```\n");
     }
-    text.push_str("```\n");
     for Equation { left, right, .. } in effect_equations(effect, Style::Latex) {
         write!(text, "\n$$ {left} = {right} $$\n").expect("a string takes all");
     }
