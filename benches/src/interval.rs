@@ -1,7 +1,7 @@
 //! What a share of experiments says of all that might have been drawn.
 
 /// Standard deviations of a normal variable within which 95 % are.
-const Z: f64 = 1.96;
+pub const Z: f64 = 1.96;
 
 /// Wilson's 95 % interval of a share, from 0 to 1, of `count` independent experiments (Wilson 1927).
 #[must_use]

@@ -4,12 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use crate::arms::ARMS;
-use robot_model_benches::interval::{wilson, worth};
+use robot_model_benches::interval::{Z, wilson, worth};
 
 use crate::judge::{Mark, Row};
-
-/// Deviations to either side of a told interval.
-const INTERVAL: f64 = 1.96;
 
 /// What an interval should next to never miss by.
 const FAR: f64 = 3.0;
@@ -230,7 +227,7 @@ fn intervals(rows: &[Row]) -> String {
         if all == 0 {
             continue;
         }
-        let hits = deviations.iter().filter(|z| z.abs() <= INTERVAL).count();
+        let hits = deviations.iter().filter(|z| z.abs() <= Z).count();
         let share = hits as f64 / all as f64;
         let (low, high) = wilson(share, worth(draws.into_values()));
         let what = arm.map_or(

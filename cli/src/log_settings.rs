@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
-use robot_model::log::{Column, Columns, DriveSignal};
+use robot_model::log::{Column, Columns, DriveSignal, is_bag};
 use robot_model_spec::model::{GainUnit, LogColumn, LogColumns};
 use robot_model_spec::{ColumnKind, Model};
 
@@ -66,7 +66,7 @@ impl LogSettings {
         let Some(path) = self.of(log) else {
             return Ok(columns(model, &model.log));
         };
-        if !self.is_given() && is_bag(log) && !names_joints(&read_text(&path)?) {
+        if !self.is_given() && is_of_bag(log) && !names_joints(&read_text(&path)?) {
             progress.note(&format!(
                 "note: {} names columns of tables and is not used for the bag {}",
                 path.display(),
@@ -102,12 +102,11 @@ impl LogSettings {
 }
 
 /// Whether a log is a bag, by its first bytes. A pipe is not read for that.
-fn is_bag(log: &Path) -> bool {
-    const MAGIC: &[u8; 5] = b"\x89MCAP";
+fn is_of_bag(log: &Path) -> bool {
     let is_file = log.metadata().is_ok_and(|found| found.is_file());
-    let mut first = [0; MAGIC.len()];
+    let mut first = [0; 8];
     let mut read = || File::open(log)?.read_exact(&mut first);
-    is_file && read().is_ok() && first == *MAGIC
+    is_file && read().is_ok() && is_bag(&first)
 }
 
 /// Whether settings are of bags, which have a topic and fields of joints: others beside a bag are of the tables there.

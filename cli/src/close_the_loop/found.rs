@@ -16,7 +16,8 @@ impl Stage {
     }
 
     /// Names, values and deviations of a finding's parameters: as the model was identified with them, else as they were traced. Shapes of a
-    /// spec are fixed, so that deviations with it know nothing of theirs; those of an arm that lacked a change as well are of that.
+    /// spec are fixed, so that deviations with it know nothing of theirs. A law that was traced before a change of the arm, and has no shapes,
+    /// has those of the model with it alone: what was missing is in the others.
     fn parameters<'a>(
         &self,
         finding: &'a Finding,

@@ -43,6 +43,7 @@ pub use mcap::{JointStates, NotABag};
 pub use note::Note;
 pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;
+pub use rows::is_bag;
 
 use header::Header;
 pub(crate) use limits::MOST_NUMBERS;

@@ -66,6 +66,18 @@ enum Kind {
     Mcap,
 }
 
+/// Whether a file that begins like this is a bag of ROS 2, MCAP.
+///
+/// # Examples
+/// ```
+/// use robot_model::log::is_bag;
+/// assert!(is_bag(b"\x89MCAP0\r\n") && !is_bag(b"time,q1,tau1\n"));
+/// ```
+#[must_use]
+pub fn is_bag(start: &[u8]) -> bool {
+    matches!(Kind::of(start), Some(Kind::Mcap))
+}
+
 impl Kind {
     const ALL: [(&'static [u8], Self); 2] =
         [(b"PAR1", Self::Parquet), (b"\x89MCAP0\r\n", Self::Mcap)];
