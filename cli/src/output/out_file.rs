@@ -46,7 +46,11 @@ impl OutFile {
         }
         // A file without a name is a trial that leaves nothing behind, whatever ends the program.
         tempfile::tempfile_in(folder).map_err(|error| {
-            let reason = format!("in folder `{}`: {}", folder.display(), reason(&error));
+            let reason = format!(
+                "no file can be made in folder `{}` ({}); name one where you may write",
+                folder.display(),
+                reason(&error)
+            );
             refused(path, &reason)
         })?;
         Ok(Self {

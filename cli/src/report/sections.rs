@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use robot_model::identify::Z_95;
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{InertialElement, Owner};
@@ -9,9 +10,6 @@ use robot_model_spec::parameter::{InertialElement, Owner};
 use super::{Drawn, Map, Page, comment};
 use crate::identify::report::Parameter;
 use crate::output::{decimals, significant};
-
-/// Deviations to either side of an interval that holds a value with 95 %.
-const WIDTH: f64 = 1.96;
 
 /// What was assumed where files were read, seen when it is opened.
 pub(crate) fn as_read(page: &mut Page, notes: &[String]) {
@@ -29,7 +27,7 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
         value.map_or("-".to_owned(), |value| significant(value, digits))
     };
     let rows = parameters.iter().map(|one| {
-        let around = |value: f64, std: f64| [value - WIDTH * std, value + WIDTH * std];
+        let around = |value: f64, std: f64| [value - Z_95 * std, value + Z_95 * std];
         let interval = one
             .interval
             .or_else(|| Some(around(one.value?, one.std.filter(|std| *std > 0.0)?)));

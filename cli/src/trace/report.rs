@@ -1,5 +1,6 @@
 //! What a trace found, as JSON.
 
+use robot_model::identify::Z_95;
 use robot_model::trace::{
     Alternative, Evidence, Finding, Floor, Share, TermShare, Tried, Whereabouts,
 };
@@ -82,6 +83,8 @@ struct StepReport {
     log: usize,
     /// s since the start of that log.
     time: f64,
+    /// When it comes back, s since the start of that log; null where it stays.
+    until: Option<f64>,
     /// N m or N.
     size: f64,
     /// Of the power of the joint's residual in that log.
@@ -166,13 +169,11 @@ pub(super) struct ParameterReport<'a> {
 
 impl<'a> ParameterReport<'a> {
     fn new(name: &'a str, value: f64, std: Option<f64>) -> Self {
-        /// Deviations to either side, of a normal distribution.
-        const WIDTH: f64 = 1.96;
         Self {
             name,
             value,
             std,
-            interval: std.map(|std| [value - WIDTH * std, value + WIDTH * std]),
+            interval: std.map(|std| [value - Z_95 * std, value + Z_95 * std]),
         }
     }
 }
@@ -313,6 +314,7 @@ fn whereabouts(one: &Whereabouts) -> WhereReport<'_> {
         step: one.step.map(|step| StepReport {
             log: step.log + 1,
             time: step.time,
+            until: step.until,
             size: step.size,
             share: step.share,
         }),

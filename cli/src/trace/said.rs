@@ -8,6 +8,8 @@ use crate::output::{decimals, significant};
 use crate::report::unit_and_meaning;
 use crate::units::Units;
 
+use super::whereabouts::Along;
+
 /// How it ended, without a capital and a full stop.
 pub(super) fn outcome(closed: &Loop) -> &'static str {
     let (has_effects, has_faults) = (
@@ -39,7 +41,13 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
             "the residual follows the motion; the listed effects pass the gates but do not explain its structure, so none is named"
         }
         // Unexplained, or an outcome of which nothing more is known here.
-        _ => "the residual follows the motion, but no known effect explains it",
+        _ => match Along::all(&closed.verdict.left) {
+            Along::Motion => "the residual follows the motion, but no known effect explains it",
+            Along::Time => {
+                "the residual wanders in time, more than it follows the motion; no known effect explains it"
+            }
+            Along::Step => "the residual's level changes, and no known effect explains it",
+        },
     }
 }
 

@@ -17,28 +17,72 @@ const MOST: f64 = 0.5;
 /// Two quantities at once are told where they say so much more than one alone.
 const MORE: f64 = 0.1;
 
+/// What structure goes along with.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Along {
+    Motion,
+    /// Nothing says more of it than time or a constant does: a zero that wanders.
+    Time,
+    /// A level that changes.
+    Step,
+}
+
+impl Along {
+    /// Of one joint.
+    fn of(one: &Whereabouts) -> Self {
+        let most = |is: &dyn Fn(Quantity) -> bool| {
+            let shares = one.shares.iter().filter(|share| is(share.of));
+            shares.map(|share| share.share).fold(0.0, f64::max)
+        };
+        let of_time = most(&|of| of == Quantity::Time).max(one.level);
+        let of_motion = most(&|of| of != Quantity::Time && !of.is_surface());
+        let of_two = most(&Quantity::is_surface) - MORE;
+        if one.step.is_some_and(|step| step.share > MOST) {
+            Self::Step
+        } else if of_time > of_motion.max(of_two).max(0.0) {
+            Self::Time
+        } else {
+            Self::Motion
+        }
+    }
+
+    /// Of all joints: with the motion where they differ, or where none is known.
+    pub(super) fn all(found: &[Whereabouts]) -> Self {
+        let mut each = found.iter().map(Self::of);
+        let first = each.next().unwrap_or(Self::Motion);
+        if each.all(|other| other == first) {
+            first
+        } else {
+            Self::Motion
+        }
+    }
+}
+
 /// What is said of each joint's error that still follows the motion, or where it lives: the first says of which joint it is.
 pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
     let verdict = &closed.verdict;
     let joints = closed.before.arm.joints().iter().enumerate();
     let told = joints.filter_map(|(joint, name)| {
         let found = verdict.left.iter().filter(|one| one.joint == joint);
-        let found: Vec<String> = found.map(|one| whereabouts(closed, one)).collect();
+        let found: Vec<Whereabouts> = found.cloned().collect();
         let left = &verdict.after[joint];
         if !left.is_material() && found.is_empty() {
             return None;
         }
         let share = 100.0 * left.share;
-        let mut steps = verdict.left.iter().filter(|one| one.joint == joint);
-        let step = steps.find_map(|one| one.step);
-        let follows = match step {
-            Some(step) if step.share > MOST => "comes from a level that changes",
-            _ => "still follows the motion",
+        let step = found.iter().find_map(|one| one.step);
+        let along = Along::all(&found);
+        let follows = match (along, left.is_material()) {
+            (Along::Step, true) => "comes from a level that changes",
+            (Along::Time, true) => "wanders in time",
+            (Along::Motion, true) => "still follows the motion",
+            (Along::Time, false) => "wanders in time in part",
+            (_, false) => "follows the motion in part",
         };
         let follows = if left.is_material() {
             format!("{share:.0} % of the error's power on {name} {follows}")
         } else {
-            format!("the error on {name} follows the motion in part")
+            format!("the error on {name} {follows}")
         };
         let step = step.map(|step| stepped(closed, joint, &step));
         let exceeded = verdict.noise_floor[joint].exceeded();
@@ -57,6 +101,7 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
             )
         });
         let said = std::iter::once(follows).chain(step).chain(exceeded);
+        let found = found.iter().map(|one| whereabouts(closed, one));
         let said = said.chain(pulsed).chain(found);
         Some(said.collect())
     });
@@ -73,10 +118,16 @@ fn stepped(closed: &Loop, joint: usize, step: &Step) -> String {
         String::new()
     };
     let time = step.time;
-    format!(
-        "its residual steps by {size} {unit} at {time:.1} s{log} and stays there, as when something slips, breaks or is reset, or the arm \
-         continues at another place: fit the parts before and after it separately"
-    )
+    match step.until {
+        Some(until) => format!(
+            "its residual steps by {size} {unit} at {time:.1} s{log} and back at {until:.1} s, as when something holds or pushes the joint \
+             for a while, or its zero is set twice: fit the log without that part"
+        ),
+        None => format!(
+            "its residual steps by {size} {unit} at {time:.1} s{log} and stays there, as when something slips, breaks or is reset, or the arm \
+             continues at another place: fit the parts before and after it separately"
+        ),
+    }
 }
 
 /// One line: the term of the equations and the quantities a curve in which explains most of a joint's residual, and the highest line of its spectrum.

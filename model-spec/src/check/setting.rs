@@ -23,6 +23,8 @@ pub(super) struct Settings<'a> {
 
 impl<'a> Settings<'a> {
     /// Reports keys that are unknown or there twice. `owner` reads like "joint `waist`".
+    ///
+    /// A slip counts as the key that was meant: that it is missing as well would be said of the same word.
     pub(super) fn new(
         settings: &'a [Setting],
         owner: &str,
@@ -42,7 +44,15 @@ impl<'a> Settings<'a> {
                 );
             }
         }
-        Self::unchecked(settings, owner, errors)
+        let mut known = Self::unchecked(settings, owner, errors);
+        for setting in settings {
+            let key = setting.key.to_string();
+            let meant = suggest::nearest(&key, allowed.iter().copied());
+            if let Some(meant) = meant.filter(|_| !allowed.contains(&key.as_str())) {
+                known.by_key.entry(meant.to_owned()).or_insert(setting);
+            }
+        }
+        known
     }
 
     /// Reports only keys that are there twice.

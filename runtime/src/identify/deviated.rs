@@ -3,10 +3,14 @@
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
 use super::{
-    Beyond, Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes, turns,
+    Beyond, Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes, slope,
+    turns,
 };
 use crate::columns::Arm;
 use crate::signal::Prepared;
+
+/// Standard deviations to either side of a value that make its 95 % interval: the 97.5 % point of the normal distribution.
+pub const Z_95: f64 = 1.96;
 
 /// A solution with its deviations.
 pub(super) struct Solved {
@@ -71,6 +75,7 @@ impl Identify {
             0..shapes.len(),
             stack,
             &solution.estimate,
+            slope::across_jumps,
         );
         let told = self.beside_slopes(&whole, &solution);
         let mut stack = whole;

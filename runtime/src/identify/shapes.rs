@@ -10,6 +10,7 @@ use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::Prepared;
 
 use super::IdentifyError;
+use super::slope::Torques;
 use super::stack::Stack;
 use simplex::simplex;
 use valleys::{lowest, starts};
@@ -71,7 +72,8 @@ pub(super) fn search(
 }
 
 /// A stack with a column for each of some free shape parameters, by which the torque of an estimate changes with it: how far it is known
-/// beside the linear unknowns. `rows` are those for given shapes.
+/// beside the linear unknowns. `rows` are those for given shapes, and `slope` is [`slope::smooth`](super::slope::smooth) or
+/// [`slope::across_jumps`](super::slope::across_jumps).
 pub(crate) fn with_slopes(
     arm: &dyn Arm,
     rows: &dyn Fn(&[f64]) -> Stack,
@@ -79,27 +81,25 @@ pub(crate) fn with_slopes(
     numbers: Range<usize>,
     mut stack: Stack,
     estimate: &[f64],
+    slope: impl Fn(f64, &[f64], Torques) -> Vec<Vec<f64>>,
 ) -> Stack {
     let free = numbers.clone().zip(&arm.shapes()[numbers.clone()]);
     let slopes = free.flat_map(|(number, shape)| {
-        let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
-        let step = 1e-4 * shapes[number].abs().max(1e-3 * (high - low));
-        let ends = [shapes[number] - step, shapes[number] + step].map(|end| end.clamp(low, high));
-        let [below, above] = ends.map(|end| {
+        // What is left falls by what the torque grows by.
+        let torques = |value: f64| {
             let mut near = shapes.to_vec();
-            near[number] = end;
-            rows(&near).residuals(estimate)
-        });
-        let joints = below.into_iter().zip(above).enumerate();
+            near[number] = value;
+            let mut left = rows(&near).residuals(estimate);
+            left.iter_mut().flatten().for_each(|value| *value = -*value);
+            left
+        };
+        let slopes = slope(shapes[number], &shape.grid, &torques);
         let column = number - numbers.start;
-        let entries = joints.map(move |(joint, (below, above))| Entry {
+        let entries = slopes.into_iter().enumerate();
+        let entries = entries.map(move |(joint, values)| Entry {
             joint,
             column,
-            values: below
-                .iter()
-                .zip(&above)
-                .map(|(below, above)| (below - above) / (ends[1] - ends[0]))
-                .collect(),
+            values,
         });
         entries.collect::<Vec<_>>()
     });

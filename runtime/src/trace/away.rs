@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use crate::columns::Entry;
 use crate::identify::{Solution, Stack, leave_out_turns};
 
+use super::folds::Fold;
 use super::gate::{Judged, MATERIAL_PERCENT};
 use super::gram::{Gram, HeldOut};
 use super::search::{Search, State};
@@ -24,6 +25,8 @@ pub(super) struct Looks {
     pub(super) without_steps: OnceLock<Vec<Structure>>,
     pub(super) steps: OnceLock<Vec<Vec<Option<Stepped>>>>,
     away: OnceLock<Option<Away>>,
+    /// Folds of its own, see [`Search::folds_of`].
+    pub(super) folds: OnceLock<Option<Vec<Fold>>>,
 }
 
 /// A model fitted to the rows away from turns.
@@ -64,7 +67,7 @@ impl Search<'_> {
             let mut stack = stack.clone();
             stack.turns.clone_from(&away.stack.turns);
             leave_out_turns(&mut stack);
-            Gram::new(&stack, &self.folds).held_out(&state.solution.sigma)
+            Gram::new(&stack, self.folds_of(state)).held_out(&state.solution.sigma)
         };
         let [before, after] = [&away.stack, &changed.stack].map(held_out);
         let judges = (0..self.arm.dof()).filter(|joint| away.mean_square(*joint).is_some());

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use crate::columns::{Arm, Change, Entry};
-use crate::identify::{IdentifyError, Stack, load_motion, with_slopes};
+use crate::identify::{IdentifyError, Stack, load_motion, slope, with_slopes};
 use crate::signal::Prepared;
 
 use super::calm::calmest;
@@ -122,7 +122,15 @@ impl Search<'_> {
             let plain = self.identify.solve_stack(&stack)?;
             stack.silence(&plain.unexcited);
             let filtered = stack.residuals(&plain.estimate);
-            let stack = with_slopes(arm, &rows, &shapes, numbers.clone(), stack, &plain.estimate);
+            let stack = with_slopes(
+                arm,
+                &rows,
+                &shapes,
+                numbers.clone(),
+                stack,
+                &plain.estimate,
+                slope::smooth,
+            );
             let solution = self.identify.solve_stack(&stack)?;
             estimate = plain.estimate[..arm.unknowns().len()].to_vec();
             let mut is_settled = true;

@@ -333,6 +333,9 @@ impl Search<'_> {
                 let found = state.accepted.pop();
                 let tried = tried.split_off(said);
                 asked_again = found.map(|found| AskedAgain { found, tried });
+                progress(&Stage::whole(&format!(
+                    "round {round} again: {kind} tells how its joint reverses, so that all candidates are tried with that"
+                )));
             }
             if !turned.is_empty() {
                 state = self.refit(state, true)?;

@@ -54,6 +54,7 @@ mod multiplicity;
 mod noise;
 mod normal;
 mod periodic;
+mod profile;
 mod projected;
 mod prune;
 mod pulses;

@@ -40,8 +40,10 @@ impl Trial<'_> {
             }
         }
         let mut best = best.away_from_ends(&drop, rows);
-        if best.shapes.len() > 1 {
+        if best.shapes.len() > 1 || best.candidate.is_of_time() {
             best.presence = presence(best.candidate, &best.shapes, rows.logs);
+        }
+        if best.shapes.len() > 1 {
             let numbers = 0..best.shapes.len();
             best.is_felt = numbers
                 .map(|number| best.feels(number, &drop, rows))

@@ -97,7 +97,7 @@ impl Search<'_> {
             let present = Present::new(stack, &Gram::new(stack, &[]), sigma, &state.residuals);
             multiplicity::tests(&present, grids, &motions)
         });
-        let baseline = self.baseline(state, *tests, &self.folds);
+        let baseline = self.baseline(state, *tests, self.folds_of(state));
         let part = |done: usize, of: usize| done as f64 / of as f64;
         let mut best: Vec<(f64, Trial)> = Vec::new();
         for (place, grid) in grids.iter().enumerate() {
@@ -211,7 +211,7 @@ impl Search<'_> {
         };
         let counts = change.counts(&changed.shapes, longest_period(&self.prepared));
         let follows_torque = changed.follows_torque;
-        judged = baseline.judge_changed(judged, changed, &self.folds);
+        judged = baseline.judge_changed(judged, changed, self.folds_of(state));
         // What bends and gaps do is at turns, too.
         if judged.passes() && !follows_torque && !self.holds_away_from_turns(state, &judged) {
             judged.refusals.push(Refusal::AtTurns);

@@ -1,12 +1,8 @@
 //! What an effect's torque changes by with its shapes.
 
 use crate::columns::{Candidate, Entry};
-use crate::identify::filtered_columns;
+use crate::identify::{filtered_columns, slope};
 use crate::signal::Prepared;
-
-/// Step of a shape's slope, of its value or of a thousandth of its range.
-const STEP: f64 = 1e-4;
-const SHARE_OF_RANGE: f64 = 1e-3;
 
 /// Filtered columns, one a shape, of what the torque of a candidate with these parameters changes by with it.
 pub(super) fn slopes(
@@ -15,26 +11,24 @@ pub(super) fn slopes(
     gain: &[f64],
     logs: &[Prepared],
 ) -> Vec<Entry> {
+    let at = |number: usize, value: f64| {
+        let mut shapes = shapes.to_vec();
+        shapes[number] = value;
+        torque(candidate, &shapes, gain, logs)
+    };
     let of_shape = |number: usize| {
         let value = shapes[number];
-        let grid = &candidate.shapes()[number].grid;
-        let (low, high) = (grid[0], grid[grid.len() - 1]);
-        let step = STEP * value.abs().max(SHARE_OF_RANGE * (high - low));
-        let ends = [value - step, value + step].map(|end| end.clamp(low, high));
-        let [below, above] = ends.map(|end| {
-            let mut shapes = shapes.to_vec();
-            shapes[number] = end;
-            torque(candidate, &shapes, gain, logs)
-        });
-        let joints = below.into_iter().zip(above);
-        joints.map(move |((joint, below), (_, above))| Entry {
+        let joints: Vec<usize> = at(number, value).into_iter().map(|(j, _)| j).collect();
+        let torques = |value: f64| -> Vec<Vec<f64>> {
+            let torques = at(number, value).into_iter();
+            torques.map(|(_, torque)| torque).collect()
+        };
+        let slopes = slope::across_jumps(value, &candidate.shapes()[number].grid, &torques);
+        let joints = joints.into_iter().zip(slopes);
+        joints.map(move |(joint, values)| Entry {
             joint,
             column: number,
-            values: below
-                .iter()
-                .zip(&above)
-                .map(|(below, above)| (above - below) / (ends[1] - ends[0]))
-                .collect(),
+            values,
         })
     };
     (0..shapes.len()).flat_map(of_shape).collect()

@@ -1,8 +1,8 @@
-//! A torque that steps once, and stays where it is: a slipped gear, a cable that came loose, an offset that was set anew.
+//! A torque that steps once, and stays where it is or comes back later: a slipped gear, a cable that is caught, an offset that was set anew.
 //!
 //! It has next to no power where robots move, so that it looks like a wander of the zero, but a wander goes everywhere and a step is at one
 //! place. Means of a second before and after every sample differ by what noise leaves in a mean, of whatever color it is; a step stands far
-//! out of all these differences, and the means of all that is before and behind it differ as well.
+//! out of all these differences, and the means of all that is on its two sides differ as well.
 
 use std::cell::OnceCell;
 
@@ -25,8 +25,11 @@ const STANDS_OUT: f64 = 6.0;
 /// So many deviations are worth a look with the step beside the model.
 const A_HINT: f64 = 2.5;
 
-/// Of what a second differs by, this share has to be there between the means of all before and all behind.
+/// Of what a second differs by, this share has to be there between the means of all that is at one level and at the other.
 const STAYS: f64 = 0.5;
+
+/// A step that comes back does so after this time at the earliest, s: what is shorter is a pulse, of which a mean of a second says little.
+const LEAST_STAY_S: f64 = 2.0;
 
 /// Differences of means that are told apart: fewer know nothing of their deviation.
 const LEAST_APART: usize = 10;
@@ -39,19 +42,24 @@ pub struct Step {
     pub log: usize,
     /// When, s since the start of that log.
     pub time: f64,
+    /// When it comes back, s since the start of that log; none where it stays to the end.
+    pub until: Option<f64>,
     /// By how much, N m or N, with the model fitted beside it.
     pub size: f64,
     /// Share of the power of the joint's residual in that log, in the band of the fit, that it takes off.
     pub share: f64,
 }
 
-/// The step of a series.
+/// Samples of a series that are at another level than the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Level {
-    /// The first sample behind it.
-    at: usize,
-    /// Of the means of all before and all behind.
+    /// The first of them, and the first behind them; none where they last to the end.
+    from: usize,
+    to: Option<usize>,
+    /// Difference of the means of these and of all others.
     size: f64,
+    /// Squares that it takes off the series.
+    taken: f64,
 }
 
 /// Sums of values and counts up to each sample; those of a sample that says nothing, which is zero, do not count.
@@ -77,6 +85,28 @@ impl Sums {
     }
 }
 
+impl Sums {
+    /// The level of a part of the samples, of which there are as many as these, as are of the others.
+    fn level(&self, from: usize, to: Option<usize>, least: usize) -> Option<Level> {
+        let samples = self.0.len() - 1;
+        let (mean, count) = self.mean(from, to.unwrap_or(samples), least)?;
+        let (all, of_all) = self.mean(0, samples, least)?;
+        let others = of_all - count;
+        if others < least {
+            return None;
+        }
+        // The mean of the others follows from that of all.
+        let size = (mean - all) * of_all as f64 / others as f64;
+        let taken = size.powi(2) * (count * others) as f64 / of_all as f64;
+        Some(Level {
+            from,
+            to,
+            size,
+            taken,
+        })
+    }
+}
+
 /// The step of a series whose samples are zero where they say nothing, as far as it stands out by so many deviations.
 fn level(values: &[f64], rate_hz: f64, stands_out: f64) -> Option<Level> {
     let side = whole_steps((SIDE_S * rate_hz).round()).max(2);
@@ -98,13 +128,30 @@ fn level(values: &[f64], rate_hz: f64, stands_out: f64) -> Option<Level> {
     let mut sizes: Vec<f64> = all.iter().map(|(_, size)| size.abs()).collect();
     let middle = sizes.len() / 2;
     let deviation = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN_OF_NORMAL;
-    let largest = all
-        .into_iter()
-        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-    let (at, sharp) = largest;
-    let size = sums.mean(at, values.len(), side)?.0 - sums.mean(0, at, side)?.0;
-    let is_one = sharp.abs() > stands_out * deviation && size * sharp > STAYS * sharp * sharp;
-    is_one.then_some(Level { at, size })
+    let sharpest = |is_asked: &dyn Fn(usize, f64) -> bool| {
+        let asked = all.iter().filter(|(at, sharp)| is_asked(*at, *sharp));
+        let largest = asked.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        (largest.1.abs() > stands_out * deviation).then_some(*largest)
+    };
+    let (at, sharp) = sharpest(&|_, _| true)?;
+    let stay = whole_steps((LEAST_STAY_S * rate_hz).round()).max(side);
+    let is_back = |other: usize, back: f64| other.abs_diff(at) >= stay && back * sharp < 0.0;
+    let pair = sharpest(&is_back).and_then(|(other, _)| {
+        let (from, to) = (at.min(other), at.max(other));
+        sums.level(from, Some(to), side)
+    });
+    // Of the level that begins with the other edge.
+    let of_pair = |level: &Level| if level.from == at { sharp } else { -sharp };
+    let pair = pair.filter(|level| stays(level, of_pair(level)));
+    let lone = sums.level(at, None, side);
+    let lone = lone.filter(|level| stays(level, sharp));
+    let found = [lone, pair].into_iter().flatten();
+    found.max_by(|one, other| one.taken.total_cmp(&other.taken))
+}
+
+/// Whether a level is as different from the others as the second around its first sample says.
+fn stays(level: &Level, sharp: f64) -> bool {
+    level.size * sharp > STAYS * sharp * sharp
 }
 
 /// A log's part of a joint's residual.
@@ -120,9 +167,10 @@ impl Part<'_> {
         level(&even, self.rate_hz, stands_out)
     }
 
-    /// Seconds of the log at which a level changes.
-    fn time(&self, level: Level) -> f64 {
-        self.segment.time[0] + level.at as f64 / self.rate_hz
+    /// Seconds of the log at which a level begins, and at which it ends.
+    fn times(&self, level: Level) -> (f64, Option<f64>) {
+        let time = |sample: usize| self.segment.time[0] + sample as f64 / self.rate_hz;
+        (time(level.from), level.to.map(time))
     }
 
     /// The step with the model beside it.
@@ -145,10 +193,11 @@ impl Part<'_> {
             let squares: f64 = residual[rows.clone()].iter().map(|r| r * r).sum();
             squares / rows.len() as f64
         };
-        let time = self.time(level);
+        let (from, to) = self.times(level);
+        let is_at = |time: f64| time >= from && to.is_none_or(|to| time < to);
         let mut values = vec![0.0; present.stack.samples()];
         for (value, at) in values[rows.clone()].iter_mut().zip(&self.segment.time) {
-            *value = f64::from(*at >= time);
+            *value = f64::from(is_at(*at));
         }
         let mut column = [Entry {
             joint: self.joint,
@@ -209,9 +258,11 @@ impl Search<'_> {
             let sigma = &state.solution.sigma;
             let present = Present::new(&state.stack, gram, sigma, &state.residuals);
             let (level, found) = part.refitted(&present, hint)?;
+            let (time, until) = part.times(level);
             let step = Step {
                 log,
-                time: part.time(level),
+                time,
+                until,
                 size: found.size,
                 share: found.share,
             };
@@ -266,19 +317,38 @@ mod tests {
     }
 
     #[test]
-    fn a_step_is_found_where_it_is_and_a_pulse_is_none() {
+    fn a_step_is_found_where_it_is_and_a_pulse_of_a_second_is_none() {
         for seed in 0..20 {
             let mut values = noise(1500, 0.2, seed);
             for value in &mut values[900..] {
                 *value += 3.0;
             }
             let found = level(&values).expect("a step");
-            assert!(found.at.abs_diff(900) <= 10, "{found:?}");
+            assert!(found.from.abs_diff(900) <= 10, "{found:?}");
             assert!((found.size - 3.0).abs() < 0.3, "{found:?}");
-            for value in &mut values[1000..] {
+            assert_eq!(found.to, None);
+            for value in &mut values[960..] {
                 *value -= 3.0;
             }
             assert_eq!(level(&values), None);
+        }
+    }
+
+    /// Up and back, wherever in the log, and down and back.
+    #[test]
+    fn a_step_that_comes_back_is_found_with_both_of_its_times() {
+        for (from, to) in [(450, 750), (100, 900), (700, 1400), (900, 1010)] {
+            for (seed, size) in [(1, 3.0), (2, -3.0), (3, 3.0), (4, -3.0)] {
+                let mut values = noise(1500, 0.2, seed);
+                for value in &mut values[from..to] {
+                    *value += size;
+                }
+                let found = level(&values).expect("a step");
+                let until = found.to.expect("an end");
+                assert!(found.from.abs_diff(from) <= 10, "{from} {to} {found:?}");
+                assert!(until.abs_diff(to) <= 10, "{from} {to} {found:?}");
+                assert!((found.size - size).abs() < 0.5, "{from} {to} {found:?}");
+            }
         }
     }
 

@@ -24,8 +24,8 @@ const MUCH_PERCENT: (f64, f64) = (20.0, 7.5);
 
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
-    /// torque linearized in the shapes, and with what zeros that walk make of it. None of what another unknown or a sum of others can
-    /// stand for, and of changes of the arm.
+    /// torque linearized in the shapes, and with what zeros that walk make of it; shapes as far as their profiles reach. None of what another
+    /// unknown or a sum of others can stand for, and of changes of the arm.
     pub(super) fn deviations(&self, state: &State) -> Vec<Vec<Option<f64>>> {
         let mut stack = state.stack.clone();
         let rows = Rows::new(&self.prepared, &state.stack);
@@ -55,6 +55,7 @@ impl Search<'_> {
                 return Vec::new();
             }
             let (linear, shapes) = places.next().expect("one an effect");
+            self.widen_by_profiles(state, effect, &linear, &mut std[shapes.clone()]);
             linear.chain(shapes).map(|k| std[k]).collect()
         };
         state.accepted.iter().map(of_effect).collect()

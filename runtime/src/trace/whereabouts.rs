@@ -71,7 +71,7 @@ impl Search<'_> {
         if terms.is_empty() || found.changed.is_some() {
             return Vec::new();
         }
-        let baseline = self.baseline(state, 1.0, &self.folds);
+        let baseline = self.baseline(state, 1.0, self.folds_of(state));
         let present = &baseline.present;
         let by_effect = found.trial.project(present).map_or(0.0, |p| p.drop);
         let is_more = |joint: usize, values: &Vec<f64>| {
@@ -103,7 +103,7 @@ impl Search<'_> {
             Some(away) => (&away.stack, &away.solution.sigma),
             None => (&state.stack, &state.solution.sigma),
         };
-        let gram = Gram::new(stack, &self.folds);
+        let gram = Gram::new(stack, self.folds_of(state));
         let without = gram.held_out(sigma);
         // The model with columns beside it on a joint.
         let beside = |joint: usize, columns: Vec<Vec<f64>>| {

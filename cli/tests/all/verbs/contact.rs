@@ -9,6 +9,13 @@ fn only(effect: &str, values: &str) -> (String, Value) {
     only_of(&spec, effect, values)
 }
 
+fn motion(t: f64) -> [f64; 2] {
+    [
+        -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+        0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+    ]
+}
+
 /// The same of another spec.
 fn only_of(spec: &dyn Fn(&str) -> String, effect: &str, values: &str) -> (String, Value) {
     let folder = Folder::new();
@@ -17,12 +24,7 @@ fn only_of(spec: &dyn Fn(&str) -> String, effect: &str, values: &str) -> (String
         r#"{{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
         "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3{values}}}"#
     );
-    moved(&folder, &spec(effect), &values, |t| {
-        [
-            -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
-            0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
-        ]
-    });
+    moved(&folder, &spec(effect), &values, motion);
     let told = folder.succeed(&["trace", "arm.robot", "log.csv", "--json", "out.json"]);
     let out = json(&folder.read("out.json"));
     assert_eq!(out["outcome"], "explained", "{told}");
@@ -41,6 +43,14 @@ fn value(out: &Value, name: &str) -> f64 {
         .unwrap_or_else(|| panic!("{name} in {out}"))
 }
 
+/// Ends of a parameter's interval.
+fn interval(out: &Value, name: &str) -> [f64; 2] {
+    let parameters = out["effects"][0]["parameters"].as_array();
+    let mut all = parameters.into_iter().flatten();
+    let found = all.find(|one| one["name"] == name).expect(name);
+    [0, 1].map(|end| found["interval"][end].as_f64().expect("a number"))
+}
+
 #[test]
 fn a_contact_is_named_with_its_force_and_its_time() {
     let force = r#", "lo.external_force.fx": 0.5, "lo.external_force.fy": 1.0, "lo.external_force.fz": -0.8"#;
@@ -57,6 +67,49 @@ fn a_contact_is_named_with_its_force_and_its_time() {
     assert_eq!(tried[0]["refused"].as_array().map(Vec::len), Some(0));
     let refused = |one: &Value| one["refused"].as_array().is_some_and(|r| !r.is_empty());
     assert!(tried.iter().any(refused), "{out}");
+}
+
+/// A contact that the spec declares is in few of the blocks that are held out, and what they then make of it is no other law's merit.
+#[test]
+fn an_arm_with_a_declared_contact_lacks_nothing() {
+    let folder = Folder::new();
+    let with_contact = spec("external_force(start = 9.7, end = 12.9) on lo;");
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3,
+        "lo.external_force.fx": 0.9, "lo.external_force.fy": 0, "lo.external_force.fz": 0.9}"#;
+    moved(&folder, &with_contact, values, motion);
+    let told = folder.succeed(&["trace", "true.robot", "log.csv", "--json", "out.json"]);
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["outcome"], "nothing-missing", "{told}");
+}
+
+/// Where the force has next to no torque as it begins or ends, too: an edge that hardly shows has a wide interval.
+#[test]
+fn intervals_of_edges_have_their_times() {
+    let mut missed = Vec::new();
+    for (start, end, force) in [
+        (5.2, 8.4, [0.0, 0.0, 1.2]),
+        (7.1, 11.6, [1.2, 0.0, 0.0]),
+        (9.7, 12.9, [0.9, 0.0, 0.9]),
+        (11.3, 16.2, [0.0, 0.0, -0.8]),
+        (13.8, 17.1, [-0.9, 0.0, 0.4]),
+        (6.6, 15.3, [0.4, 0.0, 0.6]),
+    ] {
+        let effect = format!("external_force(start = {start}, end = {end}) on lo;");
+        let axes = ["fx", "fy", "fz"].into_iter().zip(force);
+        let forces = axes.map(|(axis, value)| format!(r#", "lo.external_force.{axis}": {value}"#));
+        let force = forces.collect::<Vec<_>>().concat();
+        let (_, out) = only(&effect, &force);
+        for (name, truth) in [("start", start), ("end", end)] {
+            let [low, high] = interval(&out, name);
+            // Samples are 5 ms apart.
+            if !(low - 0.005..high + 0.005).contains(&truth) {
+                missed.push((name, truth, low, high));
+            }
+            assert!(high - low < 1.0, "{name} {truth} {low} {high}");
+        }
+    }
+    assert!(missed.len() < 2, "{missed:?}");
 }
 
 #[test]

@@ -213,6 +213,21 @@ fn a_torque_that_steps_is_no_noise() {
     close(step["size"].as_f64().expect("a number"), 1.5, 0.3);
     assert_eq!(step["log"], 1, "{out}");
     assert!(told.contains("N m at 12.0 s and stays there"), "{told}");
+    assert!(told.contains("level changes, and no known"), "{told}");
+}
+
+/// Nor is one that comes back.
+#[test]
+fn a_torque_that_steps_and_comes_back_is_no_noise() {
+    let is_off = |t: f64| (9.0..15.0).contains(&t);
+    let step = folded("", "", |t, _| [if is_off(t) { 1.0 } else { 0.0 }, 0.0]);
+    let (told, out) = told(&folding(""), &step);
+    assert_eq!(out["outcome"], "unexplained", "{told}");
+    let step = &out["structure_where"][0]["step"];
+    close(step["time"].as_f64().expect("a number"), 9.0, 0.02);
+    close(step["until"].as_f64().expect("a number"), 15.0, 0.02);
+    close(step["size"].as_f64().expect("a number"), 1.0, 0.2);
+    assert!(told.contains("N m at 9.0 s and back at 15.0 s"), "{told}");
 }
 
 /// Neither its time nor its end is told by a log of a part of it, but what it does is.

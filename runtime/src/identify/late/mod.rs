@@ -21,7 +21,7 @@ use rows::Rows;
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm};
-use super::{Beyond, Identify, prepare_all};
+use super::{Beyond, Identify, prepare_all, slope};
 use crate::columns::Arm;
 use crate::log::{LateChannel, Log};
 use crate::signal::{Bands, Prepared};
@@ -232,7 +232,15 @@ impl Identify {
         (shapes, estimate): (&[f64], &[f64]),
     ) -> Rows<'a> {
         let rows = |shapes: &[f64]| self.rows(arm, logs, shapes);
-        let stack = with_slopes(arm, &rows, shapes, 0..shapes.len(), stack, estimate);
+        let stack = with_slopes(
+            arm,
+            &rows,
+            shapes,
+            0..shapes.len(),
+            stack,
+            estimate,
+            slope::across_jumps,
+        );
         Rows::new(arm, logs, stack)
     }
 

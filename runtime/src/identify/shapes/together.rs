@@ -3,7 +3,7 @@
 
 use crate::columns::Arm;
 use crate::identify::least_squares::Factors;
-use crate::identify::{Identify, IdentifyError};
+use crate::identify::{Identify, IdentifyError, slope};
 use crate::signal::Prepared;
 
 use super::{moved, with_slopes};
@@ -65,6 +65,7 @@ impl Identify {
             0..shapes.len(),
             stack,
             &solution.estimate,
+            slope::smooth,
         );
         let beside = Factors::new(&whole).solve(&solution.scale, &vec![1.0; dof]);
         Ok(beside.estimate[linear..].to_vec())
