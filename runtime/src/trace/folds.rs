@@ -66,9 +66,12 @@ impl Search<'_> {
     /// A law of the part of a period has blocks of time. What is there once, as a contact is, may be in a single block, so that no fold that
     /// leaves it out knows anything of it: blocks are short enough that every fold has some of it. So it is with the limit of a drive, which a
     /// motion may reach at a single place of its period.
-    pub(super) fn own_folds(&self, trial: &Trial, segments: &[Segment]) -> Option<Vec<Fold>> {
+    pub(super) fn own_folds(&self, trial: &Trial, state: &State) -> Option<Vec<Fold>> {
+        let segments = &state.stack.segments[..];
         if is_of_phase(trial.candidate) {
-            return Some(cut(segments, &vec![None; segments.len()]));
+            let blocks = vec![None; segments.len()];
+            let folds = cut(segments, &blocks);
+            return Some(knowing(&folds, &state.stack, &blocks).unwrap_or(folds));
         }
         if trial.candidate.follows_torque() && !all_know(&self.folds, &trial.entries) {
             return finer(segments, &self.periods, &trial.entries);

@@ -11,7 +11,7 @@ use super::trial::Trial;
 impl Search<'_> {
     /// Whether a model without an effect is worse by as much as matters on one of its joints.
     fn is_needed(&self, state: &State, trial: &Trial) -> bool {
-        let folds = self.own_folds(trial, &state.stack.segments);
+        let folds = self.own_folds(trial, state);
         let folds = folds.as_deref().unwrap_or(self.folds_of(state));
         let baseline = self.baseline(state, 1.0, folds);
         trial.project(&baseline.present).is_some_and(|projected| {

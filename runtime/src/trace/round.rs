@@ -146,7 +146,7 @@ impl Search<'_> {
         let rows = Rows::new(&self.prepared, &state.stack);
         let trial = trial.clone().refined(&baseline.present, rows, finely);
         let projected = trial.project(&baseline.present)?;
-        let mut judged = match self.own_folds(&trial, &state.stack.segments) {
+        let mut judged = match self.own_folds(&trial, state) {
             Some(folds) => Judged {
                 // They are compared with those of no other law.
                 fold_power: Vec::new(),
