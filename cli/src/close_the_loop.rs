@@ -1,6 +1,7 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
 mod found;
+mod settled;
 
 use robot_model::columns::{Arm, Columns};
 use robot_model::identify::{Errors, Estimate, Identified, Identify};
@@ -22,6 +23,7 @@ use crate::interpreted::InterpretedArm;
 pub use crate::progress::Progress;
 use crate::rounds::Rounds;
 use crate::spec::clear;
+use settled::{Amended, Settled, is_of, settled};
 
 /// A model, what was identified with it, and how it does on data that it was not fitted on.
 #[derive(Debug)]
@@ -156,8 +158,11 @@ pub fn close(
     let noted = noted.collect();
     let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
     let is_last = reading.is_some() || faults.iter().any(|fault| fault.is_last);
-    let verdict = trace(source_name, text, &on_time, !is_last, progress)?;
-    let with = |findings: &[Finding]| -> Result<(String, Option<Stage>), Error> {
+    let ask = |barred: &[Finding]| {
+        let asks = (!is_last).then_some(barred);
+        trace(source_name, text, &on_time, asks, progress)
+    };
+    let with = |findings: &[Finding]| -> Result<Amended, Error> {
         let found = findings.iter().map(|finding| amendment(finding, arm));
         let amendments: Vec<Amendment> = declared.iter().cloned().chain(found).collect();
         let amended = amend(source_name, text, &amendments)?;
@@ -181,18 +186,12 @@ pub fn close(
         let stage = Stage::judged(arm, estimate, &sound, unseen.as_ref())?;
         Ok((amended, Some(stage)))
     };
-    let (mut amended, mut changed) = with(&verdict.findings)?;
-    // What vanishes where the arm is identified with it is not what the tracer saw.
-    let found = changed.as_ref();
-    let vanished = found.and_then(|stage| stage.vanished(&verdict.findings));
-    if vanished.is_some() {
-        (amended, changed) = with(&[])?;
-    }
-    let verdict = if vanished.is_some() {
-        verdict.unexplained()
-    } else {
-        verdict
-    };
+    let Settled {
+        verdict,
+        amended,
+        changed,
+        vanished,
+    } = settled(&ask, &with, arm)?;
     let speeds = &changed.as_ref().unwrap_or(&before).turn_speeds;
     let unseen = unseen.map(|log| log.with_turn_speeds(speeds.clone()));
     Ok(Loop {
@@ -211,12 +210,12 @@ pub fn close(
 }
 
 /// Traces until nothing changes the arm any more: what changes it is declared, and what else is missing is asked of the arm with it.
-/// `asks` is whether there are candidates.
+/// `barred` are not asked for; none is asked for without it.
 fn trace(
     source_name: &str,
     text: &str,
     logs: &[Log],
-    asks: bool,
+    barred: Option<&[Finding]>,
     progress: &Progress,
 ) -> Result<Verdict, Error> {
     let (mut text, mut logs) = (text.to_owned(), logs.to_vec());
@@ -225,11 +224,11 @@ fn trace(
     loop {
         let arm = compiled(source_name, &text)?;
         let undeclared = arm.undeclared();
-        let candidates = if asks {
-            undeclared.candidates()
-        } else {
-            Vec::new()
-        };
+        let candidates = barred.map_or_else(Vec::new, |barred| {
+            let mut candidates = undeclared.candidates();
+            candidates.retain(|one| !barred.iter().any(|finding| is_of(finding, *one)));
+            candidates
+        });
         let mut trace = Trace::new(candidates);
         if let Some(found) = &found {
             trace = trace.since(found);
@@ -315,9 +314,30 @@ fn readable(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::close;
+    use super::settled::is_change;
+    use super::{close, compiled, trace};
     use crate::progress::Progress;
-    use crate::trace::cart::{CART, log_with};
+    use crate::trace::cart::{CART, log, log_with};
+
+    /// A law is no change of the arm, a spring behind a motor is one, and what is barred is not found.
+    #[test]
+    fn what_is_barred_is_not_asked_for() {
+        let arm = compiled("cart.robot", CART).unwrap_or_else(|error| panic!("{error}"));
+        let logs = [log()];
+        let found = |barred: &[_]| {
+            trace("cart.robot", CART, &logs, Some(barred), &Progress::new())
+                .unwrap_or_else(|error| panic!("{error}"))
+                .findings
+        };
+        let all = found(&[]);
+        let friction = all.iter().find(|one| one.effect == "coulomb_friction");
+        let mut friction = friction.expect("dry friction").clone();
+        assert!(!is_change(&friction, &arm));
+        let others = found(std::slice::from_ref(&friction));
+        assert!(others.iter().all(|one| one.effect != "coulomb_friction"));
+        friction.effect = "joint_elasticity".to_owned();
+        assert!(is_change(&friction, &arm));
+    }
 
     /// A cart that creeps where it turns, below 1.5 mm/s, and that a spring holds of which its spec knows nothing: with the force of the spring
     /// in what it leaves its turns are not told.

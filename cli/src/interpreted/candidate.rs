@@ -78,12 +78,13 @@ pub fn is_tried(definition: &EffectDefinition) -> bool {
 
 /// Whether a residual may be traced to an effect: where it is a torque that is added, or a force on a link, not where it changes the
 /// rigid body or the log, and not to a sum of effects that are tried one by one. Forces are tried where links stand where their joints
-/// say.
+/// say: other forces, bodies and a base that is tilted move none.
 fn may_be_tried(definition: &EffectDefinition, model: &Model) -> bool {
     let mut acts = definition.acts.iter();
     let is_force = acts.all(|act| matches!(act, Act::Force { .. }));
     let mut declared = model.effects.iter();
-    let stands = declared.all(|effect| effect.definition.acts.is_empty());
+    let moves = |act: &Act| matches!(act, Act::Position { .. });
+    let stands = declared.all(|effect| !effect.definition.acts.iter().any(moves));
     is_tried(definition)
         && (definition.acts.is_empty() || (is_force && stands && model.chain().is_some()))
 }

@@ -3,7 +3,7 @@
 use robot_model::columns::Arm;
 use robot_model::identify::Estimate;
 use robot_model::log::Log;
-use robot_model::signal::{band_density, prepare};
+use robot_model::signal::{SEGMENT_S, band_density, prepare};
 
 use robot_model_spec::Model;
 
@@ -14,6 +14,9 @@ use crate::units::Units;
 /// Most dots of a color in a drawing, and most points of a line, two for each place.
 const DOTS: usize = 400;
 const PLACES: usize = 500;
+
+/// The model is drawn but for this time at both ends, as its errors are, s.
+const ENDS_S: f64 = 1.0;
 
 /// Bands of a spectrum, from here on to two fifths of the rate.
 const LOWEST_HZ: f64 = 0.25;
@@ -110,12 +113,17 @@ impl Drawn {
     }
 
     fn torque(&self, joint: usize, name: &str) -> String {
-        let line = |color, values: &[f64]| Series {
+        let line = |color, time: &[f64], values: &[f64]| Series {
             color,
             is_line: true,
-            points: envelope(&self.time, values),
+            points: envelope(time, values),
         };
         let last = &self.models[self.models.len() - 1];
+        // Filters swing at both ends, which no error counts.
+        let ends = self.time.first().zip(self.time.last());
+        let (first, end) = ends.map_or((0.0, 0.0), |(first, end)| (first + ENDS_S, end - ENDS_S));
+        let from = self.time.partition_point(|time| *time < first);
+        let to = self.time.partition_point(|time| *time <= end).max(from);
         Chart {
             label: &format!("measured and predicted torque of {name} over time"),
             letter: Some('a'),
@@ -123,8 +131,12 @@ impl Drawn {
             y: &format!("torque, {}", self.units[joint].torque),
             is_logarithmic: false,
             series: vec![
-                line(Ink::Measured, &self.measured[joint]),
-                line(last.color, &last.predicted[joint]),
+                line(Ink::Measured, &self.time, &self.measured[joint]),
+                line(
+                    last.color,
+                    &self.time[from..to],
+                    &last.predicted[joint][from..to],
+                ),
             ],
         }
         .svg()
@@ -170,8 +182,11 @@ impl Drawn {
 
     fn spectrum(&self, joint: usize, name: &str) -> String {
         let highest = 0.4 * self.rate_hz;
-        let edge = |k: usize| LOWEST_HZ * (highest / LOWEST_HZ).powf(k as f64 / BANDS as f64);
-        let edges: Vec<f64> = (0..=BANDS).map(edge).collect();
+        let wider = (highest / LOWEST_HZ).powf(1.0 / BANDS as f64);
+        // A band narrower than the resolution would have what its neighbor has.
+        let next = |edge: &f64| Some((edge * wider).max(edge + 1.0 / SEGMENT_S));
+        let edges = std::iter::successors(Some(LOWEST_HZ), next);
+        let edges: Vec<f64> = edges.take_while(|edge| *edge <= highest).collect();
         let line = |model: &OfModel| {
             let rest = self.measured[joint].iter().zip(&model.predicted[joint]);
             let rest: Vec<f64> = rest

@@ -22,6 +22,13 @@ pub(super) fn is_bag(path: &Path) -> bool {
 
 /// The log as a file of the kind that its name says.
 pub(super) fn log(path: &Path, record: &Record, model: &Model) -> Result<Vec<u8>, Error> {
+    let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
+    if extension.is_some_and(|extension| extension == "parquet") {
+        return Err(Error::Write {
+            path: path.to_owned(),
+            reason: "a simulation is written as CSV, or as a bag of ROS 2 (`.mcap`)".to_owned(),
+        });
+    }
     if !is_bag(path) {
         return Ok(csv(record).into_bytes());
     }

@@ -297,7 +297,13 @@ fn data(page: &mut Page, closed: &Loop) {
         }
         row
     });
-    let mut heads = vec!["joint", "declared model"];
+    // What was traced are logs without their faults; errors are told of the logs as they are.
+    let declared = if closed.faults.is_empty() {
+        "declared model"
+    } else {
+        "declared model, once the faults are removed"
+    };
+    let mut heads = vec!["joint", declared];
     if !closed.verdict.findings.is_empty() {
         heads.push("with the findings");
     }

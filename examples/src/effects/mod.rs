@@ -60,7 +60,12 @@ fn title(effect: &EffectDefinition) -> String {
 /// What reports and JSON call it.
 fn traced(effect: &EffectDefinition) -> String {
     if is_tried(effect) {
-        format!("`{}`", effect.kind.replace('_', "-"))
+        let [name, kind] = [&effect.name, &effect.kind].map(|one| one.replace('_', "-"));
+        if name == kind {
+            format!("`{name}`")
+        } else {
+            format!("`{name}`, of the kind `{kind}`")
+        }
     } else {
         "not tried: a sum of other laws, which are".to_owned()
     }

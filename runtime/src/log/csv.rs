@@ -1,6 +1,7 @@
 //! CSV text, plain or gzip, to columns of finite numbers; rows that lack some are left out.
 
 mod clock;
+mod ending;
 mod layout;
 mod lines;
 mod number;
@@ -22,6 +23,7 @@ use super::rows::{Rows, Table, damaged, unreadable};
 use super::units::Line;
 use super::{Columns, LogError, TextError, foreign, words};
 use clock::{Clock, Stamp};
+use ending::{Bounded, Ending};
 use layout::Layout;
 use number::Numbers;
 use opening::Opening;
@@ -32,30 +34,13 @@ use utf16::FromUtf16;
 /// First bytes of a gzip member.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Text that ends with an error inside a row that does not: what is unpacked may be of any length, and a row is in memory as a whole.
-struct Bounded<'a> {
-    text: Box<dyn Read + 'a>,
-    /// Bytes since the row before was done, but for those that were read ahead.
-    count: Rc<Cell<u64>>,
-}
-
-impl Read for Bounded<'_> {
-    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        if self.count.get() > LONGEST_ROW {
-            return Err(io::ErrorKind::FileTooLarge.into());
-        }
-        let read = self.text.read(into)?;
-        self.count.set(self.count.get() + read as u64);
-        Ok(read)
-    }
-}
-
 /// Records of a text, each of bounded length.
 struct Records<'a> {
     source: String,
     reader: csv::Reader<Bounded<'a>>,
     count: Rc<Cell<u64>>,
     record: ByteRecord,
+    ending: Ending,
     /// Columns are separated by any number of blanks.
     is_blank: bool,
     /// Lines above the header.
@@ -232,6 +217,7 @@ impl Rows for CsvRows<'_> {
             two.and_then(TwoTimes::note),
             self.clock.as_mut().and_then(Clock::note),
             self.numbers.note(),
+            self.records.ending.note(),
         ];
         notes.into_iter().flatten().collect()
     }
@@ -261,10 +247,11 @@ impl Rows for CsvRows<'_> {
 
 impl<'a> Records<'a> {
     fn new(source: &str, opening: Opening<'a>) -> Self {
-        let count = Rc::default();
+        let (count, ending) = (Rc::default(), Ending::default());
         let bounded = Bounded {
             text: opening.text,
             count: Rc::clone(&count),
+            last: ending.last_byte(),
         };
         let mut options = ReaderBuilder::new();
         options.has_headers(false).flexible(true).trim(Trim::All);
@@ -274,6 +261,7 @@ impl<'a> Records<'a> {
             reader: options.from_reader(bounded),
             count,
             record: ByteRecord::new(),
+            ending,
             is_blank: opening.separator == BLANKS,
             above: opening.above,
             line: opening.above + 1,
@@ -325,6 +313,9 @@ impl<'a> Records<'a> {
         if self.is_blank {
             let fields = self.record.iter().filter(|field| !field.is_empty());
             self.record = fields.collect();
+        }
+        if more {
+            self.ending.passes(&self.record, self.line);
         }
         Ok(more)
     }

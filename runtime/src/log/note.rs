@@ -79,6 +79,11 @@ pub enum Note {
         /// How often and how long.
         at: Stretches,
     },
+    /// The last line has no end, and its last number is shorter than the one above it: the file may be cut in it.
+    NoLineEnd {
+        /// That line.
+        line: u64,
+    },
     /// The time stamps were not uniform: all channels were interpolated onto a grid of the median step.
     Resampled {
         /// Samples as logged.
@@ -122,6 +127,10 @@ impl fmt::Display for Note {
                 plural(*lines),
                 if *lines == 1 { "is" } else { "are" },
                 if *lines == 1 { "" } else { " and so on" }
+            ),
+            Self::NoLineEnd { line } => write!(
+                f,
+                "line {line}, the last one, has no end, and its last number is shorter than the one above: if the file was cut there, remove that line"
             ),
             Self::RowNumbers => write!(
                 f,

@@ -28,4 +28,4 @@ pub use prepare::{Bands, Prepared, prepare, prepare_velocities};
 pub(crate) use repeat::period;
 pub use shared::SharedFilter;
 pub(crate) use shared::border;
-pub use spectrum::band_density;
+pub use spectrum::{SEGMENT_S, band_density};

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-/// Length of a segment, s: resolves 0.25 Hz.
-const SEGMENT_S: f64 = 4.0;
+/// Length of a segment of [`band_density`], s: resolves 0.25 Hz.
+pub const SEGMENT_S: f64 = 4.0;
 
 /// Mean power spectral density of a signal in frequency bands, units^2/Hz.
 ///

@@ -6,9 +6,10 @@
 use std::ops::Range;
 
 use crate::columns::Entry;
-use crate::identify::{Segment, Stack};
+use crate::identify::Segment;
 use crate::signal::resample::whole_steps;
 
+use super::once::knowing;
 use super::search::{Search, State, is_of_phase};
 use super::trial::{Presence, Trial};
 
@@ -35,13 +36,7 @@ const GAP_OF_INTERVAL: f64 = 0.2;
 /// A fold says something of a law where its training has this share of the law's power, and folds of a drive's limit are cut so finely, s, that
 /// they do.
 const LEAST_KNOWN: f64 = 0.2;
-const FINER_S: [f64; 4] = [1.6, 0.8, 0.4, 0.2];
-
-/// A model is judged on folds whose training has this share of the power of each of its columns. Where some fold has less, as of a contact that
-/// was named, what is held out is what the others make of a torque that they hardly know; so intervals are finer until all have the second share,
-/// or as much as there can be.
-const LEAST_KNOWN_OF_MODEL: f64 = 0.35;
-const WELL_KNOWN: f64 = 0.5;
+pub(super) const FINER_S: [f64; 4] = [1.6, 0.8, 0.4, 0.2];
 
 /// A law is there where its column is more than this share of the largest value.
 const THERE: f64 = 0.05;
@@ -54,13 +49,6 @@ pub(super) struct Fold {
 }
 
 impl Search<'_> {
-    /// The folds that a model is judged on, and candidates beside it.
-    pub(super) fn folds_of<'a>(&'a self, state: &'a State) -> &'a [Fold] {
-        let known = || knowing(&self.folds, &state.stack, &self.periods);
-        let own = state.looks.folds.get_or_init(known);
-        own.as_deref().unwrap_or(&self.folds)
-    }
-
     /// The folds that a candidate is judged on where they are not those of all.
     ///
     /// A law of the part of a period has blocks of time. What is there once, as a contact is, may be in a single block, so that no fold that
@@ -89,47 +77,8 @@ impl Search<'_> {
     }
 }
 
-/// Folds of finer intervals where the training of some fold has too little of a column of a model, and of finer ones has more.
-fn knowing(folds: &[Fold], stack: &Stack, periods: &[Option<f64>]) -> Option<Vec<Fold>> {
-    let mut most = least_known(folds, stack);
-    let mut best = None;
-    if most >= LEAST_KNOWN_OF_MODEL {
-        return best;
-    }
-    for interval in FINER_S {
-        let folds = fine(&stack.segments, periods, interval);
-        let known = least_known(&folds, stack);
-        if known > most {
-            (most, best) = (known, Some(folds));
-        }
-        if known >= WELL_KNOWN {
-            break;
-        }
-    }
-    best
-}
-
-/// The least share of a column's power that the training of a fold has.
-fn least_known(folds: &[Fold], stack: &Stack) -> f64 {
-    let all: Vec<usize> = (0..stack.samples()).collect();
-    let powers = |rows: &[usize]| {
-        let mut powers = vec![0.0; stack.unknowns.len()];
-        for (column, values) in stack.joints.iter().flat_map(|joint| &joint.columns) {
-            powers[*column] += rows.iter().map(|&row| values[row].powi(2)).sum::<f64>();
-        }
-        powers
-    };
-    let all = powers(&all);
-    let shares = folds.iter().flat_map(|fold| {
-        let known = powers(&fold.train);
-        let shares = known.into_iter().zip(&all).filter(|(_, all)| **all > 0.0);
-        shares.map(|(known, all)| known / all).collect::<Vec<_>>()
-    });
-    shares.fold(1.0, f64::min)
-}
-
 /// Folds of intervals that are about so long, s.
-fn fine(segments: &[Segment], periods: &[Option<f64>], interval: f64) -> Vec<Fold> {
+pub(super) fn fine(segments: &[Segment], periods: &[Option<f64>], interval: f64) -> Vec<Fold> {
     let cuts = segments.iter().zip(periods);
     let cuts = cuts.map(|(segment, period)| Cut::fine(segment, *period, interval));
     by(segments, cuts)
@@ -138,8 +87,8 @@ fn fine(segments: &[Segment], periods: &[Option<f64>], interval: f64) -> Vec<Fol
 /// The coarsest folds of finer intervals whose training has enough of a law; none where it is too short for all.
 fn finer(segments: &[Segment], periods: &[Option<f64>], entries: &[Entry]) -> Option<Vec<Fold>> {
     let mut folds = FINER_S
-        .map(|interval| fine(segments, periods, interval))
-        .into_iter();
+        .iter()
+        .map(|interval| fine(segments, periods, *interval));
     folds.find(|folds| all_know(folds, entries))
 }
 
@@ -267,8 +216,6 @@ impl Cut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::columns::Unknown;
-    use crate::identify::JointRows;
 
     /// What is there for four seconds is in every fold, wherever it begins.
     #[test]
@@ -294,37 +241,6 @@ mod tests {
             least_of_coarse = known.fold(least_of_coarse, f64::min);
         }
         assert!(least_of_coarse < 0.1, "{least_of_coarse}");
-    }
-
-    /// Of a force that is there for three seconds some fold of those of all knows next to nothing, and of the torque of a motion all know enough.
-    #[test]
-    fn every_fold_knows_the_columns_of_a_model() {
-        let time: Vec<f64> = (0..1000).map(|k| f64::from(k) / 40.0).collect();
-        let there = |t: &f64| f64::from(u8::from((9.7..12.9).contains(t)));
-        let force: Vec<f64> = time.iter().map(there).collect();
-        let motion: Vec<f64> = time.iter().map(|t| (1.3 * t).sin()).collect();
-        let segments = vec![Segment { start: 0, time }];
-        let unknown = |name: &str| Unknown {
-            name: name.to_owned(),
-            nonnegative: false,
-        };
-        let stack = |columns: Vec<(usize, Vec<f64>)>| Stack {
-            unknowns: vec![unknown("motion"), unknown("force")],
-            joints: vec![JointRows {
-                tau: motion.clone(),
-                target: motion.clone(),
-                columns,
-            }],
-            segments: segments.clone(),
-            ..Stack::default()
-        };
-        let coarse = cut(&segments, &[None]);
-        let of_motion = stack(vec![(0, motion.clone())]);
-        assert_eq!(knowing(&coarse, &of_motion, &[None]), None);
-        let with_force = stack(vec![(0, motion.clone()), (1, force)]);
-        assert!(least_known(&coarse, &with_force) < 0.2);
-        let folds = knowing(&coarse, &with_force, &[None]).expect("finer folds");
-        assert!(least_known(&folds, &with_force) > WELL_KNOWN);
     }
 
     /// A limit that is reached for 0.7 s of a period of 10 s is in one fold of those of all, which then says nothing of it.

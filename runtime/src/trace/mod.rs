@@ -53,6 +53,7 @@ mod line;
 mod multiplicity;
 mod noise;
 mod normal;
+mod once;
 mod periodic;
 mod profile;
 mod projected;

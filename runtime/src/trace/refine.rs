@@ -7,7 +7,7 @@ use crate::identify::{golden, is_of_decades, moved, neighbors};
 
 use super::rows::Rows;
 use super::score::Present;
-use super::trial::{Trial, presence};
+use super::trial::{Presence, Trial, presence};
 
 /// How much less a candidate may explain with a shape that hardly changes anything.
 const HARDLY: f64 = 1e-3;
@@ -40,8 +40,10 @@ impl Trial<'_> {
             }
         }
         let mut best = best.away_from_ends(&drop, rows);
-        if best.shapes.len() > 1 || best.candidate.is_of_time() {
-            best.presence = presence(best.candidate, &best.shapes, rows.logs);
+        let presence = presence(best.candidate, &best.shapes, rows.logs);
+        // A law with one shape has one end at most, and may be nothing at the first sample alone, as what drifts from there on is.
+        if best.shapes.len() > 1 || presence == Presence::ComesAndGoes {
+            best.presence = presence;
         }
         if best.shapes.len() > 1 {
             let numbers = 0..best.shapes.len();

@@ -69,6 +69,21 @@ fn a_contact_is_named_with_its_force_and_its_time() {
     assert!(tried.iter().any(refused), "{out}");
 }
 
+/// A payload of the spec moves no link, so that forces are asked for beside it.
+#[test]
+fn a_contact_is_named_beside_a_declared_payload() {
+    let with_payload = |effect: &str| spec(&format!("payload on lo; {effect}"));
+    let values = r#", "lo.payload.m": 1.0, "lo.payload.mx": 0.1, "lo.payload.my": 0.0, "lo.payload.mz": 0.0,
+        "lo.payload.ixx": 0.001, "lo.payload.ixy": 0.0, "lo.payload.ixz": 0.0, "lo.payload.iyy": 0.011,
+        "lo.payload.iyz": 0.0, "lo.payload.izz": 0.011,
+        "lo.external_force.fx": 2.0, "lo.external_force.fy": 1.0, "lo.external_force.fz": 0.0"#;
+    let contact = "external_force(start = 9, end = 13) on lo;";
+    let (told, out) = only_of(&with_payload, contact, values);
+    assert_eq!(out["effects"][0]["kind"], "external-force", "{told}");
+    close(value(&out, "fx"), 2.0, 0.1);
+    close(value(&out, "start"), 9.0, 0.05);
+}
+
 /// A contact that the spec declares is in few of the blocks that are held out, and what they then make of it is no other law's merit.
 #[test]
 fn an_arm_with_a_declared_contact_lacks_nothing() {

@@ -230,6 +230,20 @@ fn a_torque_that_steps_and_comes_back_is_no_noise() {
     assert!(told.contains("N m at 9.0 s and back at 15.0 s"), "{told}");
 }
 
+/// It is nothing at the first sample alone, which is no end of it.
+#[test]
+fn friction_that_settles_is_named() {
+    let log = folded("", "", |t, _| {
+        let dq = 0.9 * 1.3 * (1.3 * t).cos() + 0.2 * 4.1 * (4.1 * t).cos();
+        [0.6 * (1.0 - (-t / 8.0).exp()) * dq, 0.0]
+    });
+    let (told, out) = told(&folding(""), &log);
+    assert_eq!(kinds(&out, "effects"), ["parameter-drift"], "{told}");
+    assert_eq!(out["effects"][0]["effect"], "parameter_drift", "{told}");
+    let settle = &out["effects"][0]["parameters"][1];
+    close(settle["value"].as_f64().expect("a number"), 8.0, 0.5);
+}
+
 /// Neither its time nor its end is told by a log of a part of it, but what it does is.
 #[test]
 fn friction_that_drifts_evenly_is_named() {

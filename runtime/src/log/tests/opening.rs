@@ -257,3 +257,18 @@ fn mistakes_of_a_header_have_its_line() {
 fn plain_log(text: &str) -> Log {
     read(text, 1).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
+
+/// A file that was cut inside its last number has one that is shorter than the others; one without a last line end is whole where it is not.
+#[test]
+fn a_last_number_that_may_be_cut_is_told() {
+    let text = text("time,q1,tau1", &rows(40));
+    let whole = text.trim_end();
+    assert_eq!(notes(&read(whole, 1).expect("a log")), [""; 0]);
+    let cut = &whole[..whole.len() - 1];
+    let wanted = "line 41, the last one, has no end, and its last number is shorter than the one above: if the file was cut there, remove that line";
+    assert_eq!(notes(&read(cut, 1).expect("a log")), [wanted]);
+    assert_eq!(
+        notes(&read(&format!("{cut}\n"), 1).expect("a log")),
+        [""; 0]
+    );
+}
