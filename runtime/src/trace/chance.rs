@@ -7,7 +7,16 @@ pub(super) const SIGNIFICANCE: f64 = 1e-3;
 
 /// What takes as much off a joint's error that was not fitted, and off the raw one, needs no more of a score than this: a short log has few
 /// blocks, whose score may be no more beyond chance than that.
-const LARGE: [Large; 4] = [
+///
+/// What takes two thirds off, and half of the raw one, in all folds is none of noise's doing, however many laws are tried: zeros that wander made 13 %
+/// at most of laws of the motion. Of the five seconds of a real wrist the coupling of its motors was no more probable than 0.4 by its score.
+const LARGE: [Large; 5] = [
+    Large {
+        held_out_percent: 65.0,
+        raw_percent: 50.0,
+        significance: 1.0,
+        folds_without: 0,
+    },
     Large {
         held_out_percent: 50.0,
         raw_percent: 20.0,
@@ -140,6 +149,7 @@ mod tests {
             of(5e-4, 3.0, 1.0, 4),
             of(0.02, 72.0, 45.0, 5),
             of(0.2, 72.0, 45.0, 5),
+            of(0.4, 72.0, 66.0, 5),
             of(2e-3, 22.0, 8.0, 5),
             of(0.02, 32.0, 21.0, 5),
             of(8e-3, 22.0, 21.0, 4),
@@ -156,6 +166,8 @@ mod tests {
             of(0.02, 28.0, 25.0, 5),
             of(0.2, 32.0, 25.0, 5),
             of(0.4, 72.0, 45.0, 5),
+            of(0.4, 62.0, 55.0, 5),
+            of(0.4, 72.0, 66.0, 4),
         ] {
             assert!(!named(&chance), "{chance:?}");
         }
