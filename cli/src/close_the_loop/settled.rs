@@ -66,3 +66,55 @@ pub(super) fn is_change(finding: &Finding, arm: &InterpretedArm) -> bool {
     let mut candidates = undeclared.candidates().into_iter();
     candidates.any(|one| one.change().is_some() && is_of(finding, one))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::{Cell, RefCell};
+
+    use robot_model::trace::Outcome;
+
+    use super::super::close;
+    use super::*;
+    use crate::progress::Progress;
+    use crate::trace::cart::{CART, log};
+
+    /// A finding of which nothing is left is a lead, but for a change of the arm: that is not asked for again.
+    #[test]
+    fn a_change_that_vanishes_is_left_out_and_a_law_is_a_lead() {
+        for (effect, asked) in [("coulomb_friction", 1), ("joint_elasticity", 2)] {
+            let closed = close("cart.robot", CART, &[log()], None, &Progress::new())
+                .unwrap_or_else(|error| panic!("{error}"));
+            let arm = &closed.before.arm;
+            let mut verdict = closed.verdict.clone();
+            verdict.findings[0].effect = effect.to_owned();
+            let mut stage = closed.changed.expect("an amended model");
+            let mut all = stage.estimate.parameters.iter_mut();
+            let friction = all.find(|one| one.name == "rail.coulomb_friction.fc");
+            friction.expect("dry friction").value = 0.0;
+            let (stage, times) = (RefCell::new(Some(stage)), Cell::new(0));
+            let ask = |barred: &[Finding]| {
+                times.set(times.get() + 1);
+                let mut verdict = verdict.clone();
+                if !barred.is_empty() {
+                    verdict.findings.clear();
+                    verdict.outcome = Outcome::NothingMissing;
+                }
+                Ok(verdict)
+            };
+            let with = |findings: &[Finding]| {
+                let stage = (!findings.is_empty()).then(|| stage.take()).flatten();
+                Ok((String::new(), stage))
+            };
+            let found = settled(&ask, &with, arm).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(times.get(), asked, "{effect}");
+            assert!(found.changed.is_none() && found.verdict.findings.is_empty());
+            let told = (found.verdict.outcome, found.vanished);
+            let wanted = if asked == 1 {
+                (Outcome::Unexplained, Some(0))
+            } else {
+                (Outcome::NothingMissing, None)
+            };
+            assert_eq!(told, wanted, "{effect}");
+        }
+    }
+}

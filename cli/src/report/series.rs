@@ -1,7 +1,7 @@
 //! What is drawn of a model on a log.
 
 use robot_model::columns::Arm;
-use robot_model::identify::Estimate;
+use robot_model::identify::{Estimate, judged_samples};
 use robot_model::log::Log;
 use robot_model::signal::{SEGMENT_S, band_density, prepare};
 
@@ -14,9 +14,6 @@ use crate::units::Units;
 /// Most dots of a color in a drawing, and most points of a line, two for each place.
 const DOTS: usize = 400;
 const PLACES: usize = 500;
-
-/// The model is drawn but for this time at both ends, as its errors are, s.
-const ENDS_S: f64 = 1.0;
 
 /// Bands of a spectrum, from here on to two fifths of the rate.
 const LOWEST_HZ: f64 = 0.25;
@@ -120,10 +117,7 @@ impl Drawn {
         };
         let last = &self.models[self.models.len() - 1];
         // Filters swing at both ends, which no error counts.
-        let ends = self.time.first().zip(self.time.last());
-        let (first, end) = ends.map_or((0.0, 0.0), |(first, end)| (first + ENDS_S, end - ENDS_S));
-        let from = self.time.partition_point(|time| *time < first);
-        let to = self.time.partition_point(|time| *time <= end).max(from);
+        let counts = judged_samples(self.time.len(), self.rate_hz);
         Chart {
             label: &format!("measured and predicted torque of {name} over time"),
             letter: Some('a'),
@@ -134,8 +128,8 @@ impl Drawn {
                 line(Ink::Measured, &self.time, &self.measured[joint]),
                 line(
                     last.color,
-                    &self.time[from..to],
-                    &last.predicted[joint][from..to],
+                    &self.time[counts.clone()],
+                    &last.predicted[joint][counts],
                 ),
             ],
         }
@@ -181,12 +175,7 @@ impl Drawn {
     }
 
     fn spectrum(&self, joint: usize, name: &str) -> String {
-        let highest = 0.4 * self.rate_hz;
-        let wider = (highest / LOWEST_HZ).powf(1.0 / BANDS as f64);
-        // A band narrower than the resolution would have what its neighbor has.
-        let next = |edge: &f64| Some((edge * wider).max(edge + 1.0 / SEGMENT_S));
-        let edges = std::iter::successors(Some(LOWEST_HZ), next);
-        let edges: Vec<f64> = edges.take_while(|edge| *edge <= highest).collect();
+        let edges = edges(0.4 * self.rate_hz);
         let line = |model: &OfModel| {
             let rest = self.measured[joint].iter().zip(&model.predicted[joint]);
             let rest: Vec<f64> = rest
@@ -217,6 +206,17 @@ impl Drawn {
     }
 }
 
+/// Ends of the bands of a spectrum up to a frequency, Hz. One narrower than the resolution would have what its neighbor has.
+fn edges(highest: f64) -> Vec<f64> {
+    let wider = (highest / LOWEST_HZ).powf(1.0 / BANDS as f64);
+    let next = |edge: &f64| Some((edge * wider).max(edge + 1.0 / SEGMENT_S));
+    let edges = std::iter::successors(Some(LOWEST_HZ), next);
+    // A little beyond: the last one of a product of factors.
+    edges
+        .take_while(|edge| *edge <= highest * (1.0 + 1e-9))
+        .collect()
+}
+
 /// A long line by the least and the largest value in each of some places.
 fn envelope(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     let count = time.len().min(values.len());
@@ -239,7 +239,18 @@ fn envelope(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::envelope;
+    use super::{LOWEST_HZ, SEGMENT_S, edges, envelope};
+
+    #[test]
+    fn bands_are_resolved_and_reach_to_the_highest() {
+        for highest in [20.0, 80.0, 400.0] {
+            let edges = edges(highest);
+            let mut pairs = edges.windows(2);
+            assert!(pairs.all(|pair| pair[1] - pair[0] > 0.999 / SEGMENT_S));
+            let last = edges[edges.len() - 1];
+            assert!(edges[0] <= LOWEST_HZ && last > 0.8 * highest && last < 1.001 * highest);
+        }
+    }
 
     #[test]
     fn a_long_line_keeps_its_peaks() {

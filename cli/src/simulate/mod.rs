@@ -172,6 +172,7 @@ impl Simulate {
             )));
         }
 
+        record::check(&self.out)?;
         let progress = Progress::new();
         progress.step(&format!("compiling {}", self.spec.display()));
         let compiled = compile(&self.spec)?;

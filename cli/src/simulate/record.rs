@@ -16,19 +16,27 @@ use crate::units::Units;
 
 /// Whether a log is to be a bag of ROS 2, by its name.
 pub(super) fn is_bag(path: &Path) -> bool {
+    ends(path, "mcap")
+}
+
+/// Refuses the name of a table that is not written.
+pub(super) fn check(path: &Path) -> Result<(), Error> {
+    if !ends(path, "parquet") {
+        return Ok(());
+    }
+    Err(Error::Write {
+        path: path.to_owned(),
+        reason: "a simulation is written as CSV, or as a bag of ROS 2 (`.mcap`)".to_owned(),
+    })
+}
+
+fn ends(path: &Path, with: &str) -> bool {
     let extension = path.extension();
-    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case(with))
 }
 
 /// The log as a file of the kind that its name says.
 pub(super) fn log(path: &Path, record: &Record, model: &Model) -> Result<Vec<u8>, Error> {
-    let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-    if extension.is_some_and(|extension| extension == "parquet") {
-        return Err(Error::Write {
-            path: path.to_owned(),
-            reason: "a simulation is written as CSV, or as a bag of ROS 2 (`.mcap`)".to_owned(),
-        });
-    }
     if !is_bag(path) {
         return Ok(csv(record).into_bytes());
     }

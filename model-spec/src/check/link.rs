@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::chain::CheckedJoint;
-use super::setting::{Settings, meant};
+use super::setting::Settings;
 use super::unit::Dimension;
 use super::{Errors, check_unique, optional, value};
 use crate::ast::{self, Robot, Value};
@@ -47,11 +47,7 @@ const KEYS: [&str; 3] = ["mass", "com", "inertia"];
 fn check_link(link: &ast::Link, errors: &mut Errors) -> Option<Inertial> {
     let owner = format!("link `{}`", link.name);
     let settings = Settings::new(&link.settings, &owner, &KEYS, errors);
-    let meant = meant(&link.settings, &KEYS);
-    let missing: Vec<&str> = KEYS
-        .into_iter()
-        .filter(|key| settings.get(key).is_none() && !meant.contains(key))
-        .collect();
+    let missing: Vec<&str> = KEYS.into_iter().filter(|key| settings.lacks(key)).collect();
     if !missing.is_empty() {
         errors.push(
             Diagnostic::new(

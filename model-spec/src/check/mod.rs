@@ -258,16 +258,18 @@ const CONVENTIONS: [(&str, Convention); 3] = [
 
 fn check_convention(robot: &Robot, settings: &Settings, errors: &mut Errors) -> Option<Convention> {
     let Some(value) = settings.get("convention") else {
-        errors.push(
-            Diagnostic::new(
-                robot.name.span(),
-                "the robot does not define its frame convention",
-                "no `convention`",
-            )
-            .help(
-                "write `convention = standard_dh;`, `modified_dh` or `origin`; there is no default",
-            ),
-        );
+        if settings.lacks("convention") {
+            errors.push(
+                Diagnostic::new(
+                    robot.name.span(),
+                    "the robot does not define its frame convention",
+                    "no `convention`",
+                )
+                .help(
+                    "write `convention = standard_dh;`, `modified_dh` or `origin`; there is no default",
+                ),
+            );
+        }
         return None;
     };
     let word = value::word(value);
@@ -287,11 +289,13 @@ fn check_convention(robot: &Robot, settings: &Settings, errors: &mut Errors) -> 
 
 fn check_gravity(robot: &Robot, settings: &Settings, errors: &mut Errors) -> Option<[f64; 3]> {
     let Some(value) = settings.get("gravity") else {
-        errors.push(
-            Diagnostic::new(robot.name.span(), "the robot does not define gravity", "no `gravity`").help(
-                "write `gravity = [0, 0, -9.81];` (m/s^2, in the base frame; zeros for horizontal motion)",
-            ),
-        );
+        if settings.lacks("gravity") {
+            errors.push(
+                Diagnostic::new(robot.name.span(), "the robot does not define gravity", "no `gravity`").help(
+                    "write `gravity = [0, 0, -9.81];` (m/s^2, in the base frame; zeros for horizontal motion)",
+                ),
+            );
+        }
         return None;
     };
     value::vector(value, Dimension::ACCELERATION)

@@ -19,12 +19,12 @@ pub(super) fn meant<'a>(settings: &[Setting], known: &[&'a str]) -> Vec<&'a str>
 /// The settings of one block by key.
 pub(super) struct Settings<'a> {
     by_key: BTreeMap<String, &'a Setting>,
+    /// Keys that are there with a slip.
+    meant: Vec<String>,
 }
 
 impl<'a> Settings<'a> {
     /// Reports keys that are unknown or there twice. `owner` reads like "joint `waist`".
-    ///
-    /// A slip counts as the key that was meant: that it is missing as well would be said of the same word.
     pub(super) fn new(
         settings: &'a [Setting],
         owner: &str,
@@ -44,15 +44,11 @@ impl<'a> Settings<'a> {
                 );
             }
         }
-        let mut known = Self::unchecked(settings, owner, errors);
-        for setting in settings {
-            let key = setting.key.to_string();
-            let meant = suggest::nearest(&key, allowed.iter().copied());
-            if let Some(meant) = meant.filter(|_| !allowed.contains(&key.as_str())) {
-                known.by_key.entry(meant.to_owned()).or_insert(setting);
-            }
+        let meant = meant(settings, allowed).into_iter().map(str::to_owned);
+        Self {
+            meant: meant.collect(),
+            ..Self::unchecked(settings, owner, errors)
         }
-        known
     }
 
     /// Reports only keys that are there twice.
@@ -74,7 +70,15 @@ impl<'a> Settings<'a> {
                 by_key.insert(key, setting);
             }
         }
-        Self { by_key }
+        Self {
+            by_key,
+            meant: Vec::new(),
+        }
+    }
+
+    /// Whether a key is not there, not even with a slip, which is told already.
+    pub(super) fn lacks(&self, key: &str) -> bool {
+        self.get(key).is_none() && !self.meant.iter().any(|meant| meant == key)
     }
 
     pub(super) fn get(&self, key: &str) -> Option<&'a Value> {

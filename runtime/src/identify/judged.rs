@@ -1,5 +1,7 @@
 //! An estimate on a log: the torque that it predicts, and how far that is from the measured one.
 
+use std::ops::Range;
+
 use super::clipped::rows_at;
 use super::errors::Errors;
 use super::logs::prepare_at_own_rate;
@@ -12,6 +14,24 @@ use crate::signal::resample::whole_steps;
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
 const ERROR_BORDER_S: f64 = 1.0;
+
+/// Samples of a log at a rate, Hz, whose errors count: all but those of a second at either end, or of a quarter of a shorter log.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::judged_samples;
+/// assert_eq!(judged_samples(5000, 1000.0), 1000..4000);
+/// assert_eq!(judged_samples(2000, 1000.0), 500..1500);
+/// ```
+#[must_use]
+pub fn judged_samples(count: usize, rate_hz: f64) -> Range<usize> {
+    within(count, whole_steps(ERROR_BORDER_S * rate_hz))
+}
+
+fn within(count: usize, border: usize) -> Range<usize> {
+    let border = border.min(count / 4);
+    border..count - border
+}
 
 impl Estimate {
     /// Torque that the model predicts at every time stamp of a log, `[joint][sample]`, N m or N.
@@ -93,7 +113,7 @@ impl Estimate {
         let torque = self.torque(arm, prepared);
         let count = measured.first().map_or(0, Vec::len);
         let border = whole_steps(ERROR_BORDER_S * prepared.rate_hz) * stride;
-        let inner = border.min(count / 4)..count - border.min(count / 4);
+        let inner = within(count, border);
         let sound: Vec<usize> = inner
             .filter(|k| !prepared.is_in_hole(*k as f64 / stride as f64))
             .collect();

@@ -69,6 +69,7 @@ pub use factor::{Factor, FactorBlock, FactorRows};
 use fitted::Fitted;
 pub use hac::correlation_time;
 pub use instruments::Hausman;
+pub use judged::judged_samples;
 use lacking::Lacking;
 pub use lacking::{HiddenDelay, OtherFriction};
 pub(crate) use late::longest_period;

@@ -8,7 +8,7 @@ pub(super) const SIGNIFICANCE: f64 = 1e-3;
 /// What takes as much off a joint's error that was not fitted, and off the raw one, needs no more of a score than this: a short log has few
 /// blocks, whose score may be no more beyond chance than that.
 ///
-/// What takes two thirds off, and half of the raw one, in all folds is none of noise's doing, however many laws are tried: zeros that wander made 13 %
+/// What takes 65 % off, and half of the raw one, in all folds is none of noise's doing, however many laws are tried: zeros that wander made 13 %
 /// at most of laws of the motion. Of the five seconds of a real wrist the coupling of its motors was no more probable than 0.4 by its score.
 const LARGE: [Large; 5] = [
     Large {

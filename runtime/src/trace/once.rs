@@ -8,8 +8,8 @@ use crate::identify::{Segment, Stack};
 use super::folds::{FINER_S, Fold, fine};
 use super::search::{Search, State};
 
-/// A column that comes once is next to nothing, over its largest value, for a run of so large a share of the log, or of its period: filters leave less of a contact
-/// behind, and the noise of a joint that stands is more.
+/// A column that comes once is next to nothing, over its largest value, for a run of so large a share of the log, or of its period: filters leave
+/// less of a contact behind, and the noise of a joint that stands is more.
 const NEXT_TO_NOTHING: f64 = 1e-6;
 const LONG: f64 = 0.2;
 

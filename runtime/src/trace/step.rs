@@ -83,10 +83,8 @@ impl Sums {
         let count = last.1 - first.1;
         (count >= least.max(1)).then(|| ((last.0 - first.0) / count as f64, count))
     }
-}
 
-impl Sums {
-    /// The level of a part of the samples, of which there are as many as these, as are of the others.
+    /// The level of the samples from one on, up to another or the end; none where fewer than these say something on either side of its edges.
     fn level(&self, from: usize, to: Option<usize>, least: usize) -> Option<Level> {
         let samples = self.0.len() - 1;
         let (mean, count) = self.mean(from, to.unwrap_or(samples), least)?;

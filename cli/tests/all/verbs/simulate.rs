@@ -275,6 +275,15 @@ fn a_motion_that_blows_up_leaves_no_log() {
 }
 
 #[test]
+fn a_table_that_is_not_written_is_refused() {
+    let folder = folder();
+    let files = ["--trajectory", "wanted.csv", "--out", "log.parquet"];
+    let said = folder.refuse(&[&BASICS[..4], &files].concat());
+    assert!(said.contains("is written as CSV"), "{said}");
+    assert!(!folder.files().contains(&"log.parquet".to_owned()));
+}
+
+#[test]
 fn what_cannot_be_simulated_is_told() {
     let folder = folder();
     let refuse = |spec: &str, more: &[&str]| {

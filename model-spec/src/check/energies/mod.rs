@@ -223,6 +223,7 @@ fn check_present<'a>(
             );
             None
         }
+        None if !settings.lacks(key) => None,
         None => {
             errors.push(
                 Diagnostic::new(
