@@ -219,10 +219,11 @@ fn deviations(injection: &Injection, experiment: &Experiment, closed: &Loop) -> 
     let findings = closed.verdict.findings.iter().enumerate();
     let same = findings.filter(|(_, finding)| finding.effect == injection.effect());
     let told = same.flat_map(|(place, finding)| closed.parameters(finding, place));
-    let deviations = told.filter_map(|(name, value, std)| {
+    let deviations = told.filter_map(|(name, value, sure)| {
         let mut all = experiment.parameters.iter();
         let (_, truth) = all.find(|(own, _)| *own == name)?;
-        std.filter(|std| *std > 0.0)
+        sure.std()
+            .filter(|std| *std > 0.0)
             .map(|std| (value - truth) / std)
     });
     deviations.collect()

@@ -23,6 +23,7 @@ use crate::interpreted::InterpretedArm;
 pub use crate::progress::Progress;
 use crate::rounds::Rounds;
 use crate::spec::clear;
+pub use found::Sure;
 use settled::{Amended, Settled, is_of, settled};
 
 /// A model, what was identified with it, and how it does on data that it was not fitted on.

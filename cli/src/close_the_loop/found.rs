@@ -7,6 +7,30 @@ use super::{Loop, Stage};
 /// Deviations that a parameter is told by.
 const TOLD: f64 = 2.0;
 
+/// How well the value of a parameter is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Sure {
+    /// With this standard deviation.
+    Std(f64),
+    /// As well as the share of a motor in a sum of the motor and its link, which the logs do not tell: a stiffness scales with the load, and the
+    /// load is what the motor leaves.
+    Nominal,
+    /// Not at all: others do the same.
+    Traded,
+}
+
+impl Sure {
+    /// The standard deviation, where there is one.
+    #[must_use]
+    pub fn std(self) -> Option<f64> {
+        match self {
+            Self::Std(std) => Some(std),
+            Self::Nominal | Self::Traded => None,
+        }
+    }
+}
+
 impl Stage {
     /// Name of one of the model's last effects, which are the findings; none of a lead, which is not declared.
     fn effect_name(&self, findings: usize, place: usize) -> Option<String> {
@@ -64,15 +88,23 @@ impl Loop {
         self.after().effect_name(self.verdict.findings.len(), place)
     }
 
-    /// Names, values and deviations of a finding's parameters, or of a lead's as it was traced.
+    /// Names and values of a finding's parameters, or of a lead's as it was traced, and how well they are known.
     #[must_use]
-    pub fn parameters<'a>(
-        &self,
-        finding: &'a Finding,
-        place: usize,
-    ) -> Vec<(&'a str, f64, Option<f64>)> {
+    pub fn parameters<'a>(&self, finding: &'a Finding, place: usize) -> Vec<(&'a str, f64, Sure)> {
         let effect = self.effect_name(place);
-        self.after().parameters(finding, effect.as_deref())
+        let arm = self.after().arm.compiled();
+        let mut definitions = arm.model.definitions.iter();
+        let is_nominal = !arm.mixed().is_empty()
+            && definitions.any(|one| one.name == finding.effect && one.gives_way());
+        let all = self.after().parameters(finding, effect.as_deref());
+        let sure = |std: Option<f64>| match std {
+            Some(_) if is_nominal => Sure::Nominal,
+            Some(std) => Sure::Std(std),
+            None => Sure::Traded,
+        };
+        let all = all.into_iter();
+        all.map(|(name, value, std)| (name, value, sure(std)))
+            .collect()
     }
 }
 
@@ -110,7 +142,12 @@ mod tests {
         let closed = close("cart.robot", CART, &[log()], None, &Progress::new())
             .unwrap_or_else(|error| panic!("{error}"));
         let mut finding = closed.verdict.findings[0].clone();
-        let std = |finding: &Finding| closed.parameters(finding, 0)[0].2.expect("a deviation");
+        let std = |finding: &Finding| {
+            closed.parameters(finding, 0)[0]
+                .2
+                .std()
+                .expect("a deviation")
+        };
         let own = std(&finding);
         finding.parameters[0].std = Some(35.0 * own);
         assert!((std(&finding) / own - 35.0).abs() < 1e-9);

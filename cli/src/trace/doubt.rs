@@ -2,10 +2,11 @@
 
 use robot_model::columns::Arm;
 use robot_model::trace::{Floor, Outcome};
+use robot_model_spec::model::{EffectExpr, EffectLeaf, Expr, Signal};
 
 use crate::close_the_loop::Loop;
 use crate::identify::noted::mixed;
-use crate::output::significant;
+use crate::output::{names, significant};
 
 /// An error that is smaller is at most this share of what it was.
 const LEAST_FALL: f64 = 0.99;
@@ -97,7 +98,44 @@ fn relative_percent(closed: &Loop) -> Option<(&[f64], &[f64])> {
 fn of_springs(closed: &Loop) -> Option<String> {
     let is_declared = mixed(closed.before.arm.compiled()).is_some();
     let changed = closed.changed.as_ref().filter(|_| !is_declared)?;
-    mixed(changed.arm.compiled())
+    mixed(changed.arm.compiled()).or_else(|| without_motor(closed))
+}
+
+/// That a spring which was found carries all inertia of its joint, since the spec has none of its motor.
+fn without_motor(closed: &Loop) -> Option<String> {
+    let model = &closed.after().arm.compiled().model;
+    let has_motor = |joint: usize| {
+        let reads = |part: &EffectExpr| {
+            matches!(
+                part,
+                Expr::Leaf(EffectLeaf::Signal(Signal::Acceleration, _))
+            )
+        };
+        let mut own = model.effects.iter();
+        own.any(|effect| {
+            effect.joints.contains(&joint)
+                && effect
+                    .definition
+                    .torque_equations()
+                    .any(|value| value.contains(&reads))
+        })
+    };
+    let springs = closed.verdict.findings.iter().filter(|finding| {
+        let mut definitions = model.definitions.iter();
+        definitions.any(|one| one.name == finding.effect && one.gives_way())
+    });
+    let joints = springs.flat_map(|finding| &finding.joints);
+    let joints: Vec<&str> = joints
+        .filter(|joint| !has_motor(**joint))
+        .map(|joint| model.joints[*joint].name.as_str())
+        .collect();
+    (!joints.is_empty()).then(|| {
+        format!(
+            "the spec has no motor inertia on {}, so the load that deflects the spring includes the motor's: if it is not small beside the link's, \
+             declare `motor_inertia` there and trace again",
+            names(&joints)
+        )
+    })
 }
 
 /// That a model with what was found leaves far more than noise: a name is no claim that nothing else is missing.

@@ -1,13 +1,13 @@
 //! Parameters of the last model, as the page of a trace has them.
 
-use crate::close_the_loop::Loop;
+use crate::close_the_loop::{Loop, Sure};
 use crate::identify::report::{Parameter, identified};
 
 /// A parameter of a finding, by its name in the amended spec.
 pub(super) struct Found {
     name: String,
     value: f64,
-    std: Option<f64>,
+    sure: Sure,
 }
 
 /// Those of all findings that the amended spec declares, shapes among them: the fit has these as fixed, and gives them no row.
@@ -16,10 +16,10 @@ pub(super) fn found(closed: &Loop) -> Vec<Found> {
     let all = findings.filter_map(|(place, finding)| {
         let effect_name = closed.effect_name(place)?;
         let parameters = closed.parameters(finding, place).into_iter();
-        Some(parameters.map(move |(name, value, std)| Found {
+        Some(parameters.map(move |(name, value, sure)| Found {
             name: format!("{effect_name}.{name}"),
             value,
-            std,
+            sure,
         }))
     });
     all.flatten().collect()
@@ -32,8 +32,8 @@ pub(super) fn parameters<'a>(closed: &'a Loop, found: &'a [Found]) -> Vec<Parame
     for own in found {
         let row = Parameter {
             name: &own.name,
-            value: own.std.map(|_| own.value),
-            std: own.std,
+            value: (own.sure != Sure::Traded).then_some(own.value),
+            std: own.sure.std(),
             interval: None,
         };
         match all.iter_mut().find(|one| one.name == own.name) {

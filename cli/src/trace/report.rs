@@ -7,7 +7,7 @@ use robot_model::trace::{
 use serde::Serialize;
 
 use super::doubt::{borne_out, unlike};
-use crate::close_the_loop::Loop;
+use crate::close_the_loop::{Loop, Sure};
 use crate::data_gate::DataFault;
 use crate::identify::data_faults::{FaultReport, fault_reports};
 
@@ -161,18 +161,23 @@ pub(super) struct ParameterReport<'a> {
     pub(super) name: &'a str,
     /// Where others do the same, that with these at zero.
     pub(super) value: f64,
-    /// Beside all other unknowns, shapes among them; none where another unknown or a sum of others does the same.
+    /// Beside all other unknowns, shapes among them; none where another unknown or a sum of others does the same, and of a stiffness that is
+    /// known as well as the split of a motor and its link.
     pub(super) std: Option<f64>,
     /// Ends of the interval that holds the value with 95 %.
     pub(super) interval: Option<[f64; 2]>,
+    #[serde(skip)]
+    pub(super) sure: Sure,
 }
 
 impl<'a> ParameterReport<'a> {
-    fn new(name: &'a str, value: f64, std: Option<f64>) -> Self {
+    fn new(name: &'a str, value: f64, sure: Sure) -> Self {
+        let std = sure.std();
         Self {
             name,
             value,
             std,
+            sure,
             interval: std.map(|std| [value - Z_95 * std, value + Z_95 * std]),
         }
     }
@@ -245,7 +250,7 @@ impl<'a> Report<'a> {
             unlike_validation: unlike(closed).iter().map(|joint| joint + 1).collect(),
             impossible: closed
                 .impossible()
-                .map(|found| ParameterReport::new(&found.name, found.value, Some(found.std)))
+                .map(|found| ParameterReport::new(&found.name, found.value, Sure::Std(found.std)))
                 .collect(),
             leads: leads
                 .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
@@ -272,7 +277,7 @@ impl Joints {
 /// A finding or lead with the values that the amended model was identified with; `place` is its place among both.
 pub(super) fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -> EffectReport<'a> {
     let parameters = closed.parameters(finding, place).into_iter();
-    let parameters = parameters.map(|(name, value, std)| ParameterReport::new(name, value, std));
+    let parameters = parameters.map(|(name, value, sure)| ParameterReport::new(name, value, sure));
     EffectReport {
         kind: &finding.kind,
         effect: Some(&finding.effect),
@@ -343,7 +348,7 @@ fn tried(tried: &Tried) -> TriedReport<'_> {
 /// A fault of the logs among the effects.
 fn fault(fault: &DataFault) -> EffectReport<'_> {
     let delay = fault.delay.iter();
-    let delay = delay.map(|&(value, std)| ParameterReport::new("delay", value, Some(std)));
+    let delay = delay.map(|&(value, std)| ParameterReport::new("delay", value, Sure::Std(std)));
     EffectReport {
         kind: fault.kind,
         effect: None,

@@ -3,7 +3,7 @@
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, Outcome};
 
-use crate::close_the_loop::{Loop, Stage};
+use crate::close_the_loop::{Loop, Stage, Sure};
 use crate::output::{decimals, significant};
 use crate::report::unit_and_meaning;
 use crate::units::Units;
@@ -37,17 +37,38 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         Outcome::Unexplained if closed.reading.is_some() => {
             "the logs seem to be misread; fix this first, nothing else was traced"
         }
-        Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
+        // Unexplained, or an outcome of which nothing more is known here.
+        _ => unexplained(Along::all(closed), !closed.verdict.leads.is_empty()),
+    }
+}
+
+/// What structure goes along with that no effect explains, and whether some pass the gates all the same.
+const fn unexplained(along: Along, has_leads: bool) -> &'static str {
+    match (along, has_leads) {
+        (Along::Motion, false) => {
+            "the residual follows the motion, but no known effect explains it"
+        }
+        (Along::Motion, true) => {
             "the residual follows the motion; the listed effects pass the gates but do not explain its structure, so none is named"
         }
-        // Unexplained, or an outcome of which nothing more is known here.
-        _ => match Along::all(&closed.verdict.left) {
-            Along::Motion => "the residual follows the motion, but no known effect explains it",
-            Along::Time => {
-                "the residual wanders in time, more than it follows the motion; no known effect explains it"
-            }
-            Along::Step => "the residual's level changes, and no known effect explains it",
-        },
+        (Along::Time, false) => {
+            "the residual wanders in time, more than it follows the motion; no known effect explains it"
+        }
+        (Along::Time, true) => {
+            "the residual wanders in time, more than it follows the motion; the listed effects pass the gates but do not explain that, so none \
+             is named"
+        }
+        (Along::Step, false) => "the residual's level changes, and no known effect explains it",
+        (Along::Step, true) => {
+            "the residual's level changes; the listed effects pass the gates but do not explain that, so none is named"
+        }
+        (Along::Nothing, false) => {
+            "the residual is more than noise, but follows from no quantity that it was compared with; no known effect explains it"
+        }
+        (Along::Nothing, true) => {
+            "the residual is more than noise, but follows from no quantity that it was compared with; the listed effects pass the gates but \
+             do not explain it, so none is named"
+        }
     }
 }
 
@@ -78,25 +99,29 @@ pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
 }
 
 /// A parameter of a finding with its unit, and what stands beside its value where there is a deviation: `fc = 1.82 +- 0.01 N m`. The value
-/// has the decimals of two digits of the deviation. One without any has no value of its own.
+/// has the decimals of two digits of the deviation. One that others replace has no value of its own.
 pub(super) fn parameter(
     closed: &Loop,
     finding: &Finding,
-    (name, value, std): (&str, f64, Option<f64>),
+    (name, value, sure): (&str, f64, Sure),
     beside: impl FnOnce(usize) -> String,
 ) -> String {
     let unit = match unit(closed, finding, name).as_str() {
         "" | "1" => String::new(),
         unit => format!(" {unit}"),
     };
-    match std {
-        Some(std) if std > 0.0 => {
+    match sure {
+        Sure::Std(std) if std > 0.0 => {
             let decimals = decimals(std, 2);
             let beside = beside(decimals);
             format!("{name} = {value:.decimals$}{beside}{unit}")
         }
-        Some(_) => format!("{name} = {}{unit}", significant(value, 4)),
-        None => format!("{name} not separable from other parameters"),
+        Sure::Std(_) => format!("{name} = {}{unit}", significant(value, 4)),
+        Sure::Nominal => format!(
+            "{name} = {}{unit}, as far as the spec splits motor and link correctly",
+            significant(value, 4)
+        ),
+        Sure::Traded => format!("{name} not separable from other parameters"),
     }
 }
 

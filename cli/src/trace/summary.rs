@@ -32,7 +32,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             .parameters
             .iter()
             .map(|own| {
-                let told = (own.name, own.value, own.std);
+                let told = (own.name, own.value, own.sure);
                 parameter(closed, finding, told, |decimals| {
                     let std = own.std.unwrap_or_default();
                     format!(" +- {std:.decimals$}")

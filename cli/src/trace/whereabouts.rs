@@ -18,28 +18,36 @@ const MOST: f64 = 0.5;
 const MORE: f64 = 0.1;
 
 /// What structure goes along with.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Along {
     Motion,
     /// Nothing says more of it than time or a constant does: a zero that wanders.
     Time,
     /// A level that changes.
     Step,
+    /// Nothing that was asked says a tenth of it.
+    Nothing,
 }
 
 impl Along {
-    /// Of one joint.
-    fn of(one: &Whereabouts) -> Self {
+    /// Of one joint, whose error repeats with the motion or is not known to.
+    fn of(one: &Whereabouts, repeats: bool) -> Self {
         let most = |is: &dyn Fn(Quantity) -> bool| {
             let shares = one.shares.iter().filter(|share| is(share.of));
             shares.map(|share| share.share).fold(0.0, f64::max)
         };
+        let terms = one.terms.iter().map(|term| term.share);
         let of_time = most(&|of| of == Quantity::Time).max(one.level);
-        let of_motion = most(&|of| of != Quantity::Time && !of.is_surface());
+        let of_one = most(&|of| of != Quantity::Time && !of.is_surface());
         let of_two = most(&Quantity::is_surface) - MORE;
+        let of_motion = terms.fold(of_one.max(of_two), f64::max);
         if one.step.is_some_and(|step| step.share > MOST) {
             Self::Step
-        } else if of_time > of_motion.max(of_two).max(0.0) {
+        } else if repeats {
+            Self::Motion
+        } else if 100.0 * of_time.max(of_motion) < LEAST_PERCENT {
+            Self::Nothing
+        } else if of_time > of_motion {
             Self::Time
         } else {
             Self::Motion
@@ -47,13 +55,23 @@ impl Along {
     }
 
     /// Of all joints: with the motion where they differ, or where none is known.
-    pub(super) fn all(found: &[Whereabouts]) -> Self {
-        let mut each = found.iter().map(Self::of);
-        let first = each.next().unwrap_or(Self::Motion);
-        if each.all(|other| other == first) {
-            first
-        } else {
-            Self::Motion
+    pub(super) fn all(closed: &Loop) -> Self {
+        let verdict = &closed.verdict;
+        let repeats = |joint: usize| verdict.noise_floor[joint].exceeded().is_some();
+        let each = verdict.left.iter();
+        Self::together(each.map(|one| Self::of(one, repeats(one.joint))))
+    }
+
+    fn together(each: impl Iterator<Item = Self>) -> Self {
+        let mut each: Vec<Self> = each.collect();
+        // What follows from nothing that was asked says nothing against the others.
+        if each.iter().any(|along| *along != Self::Nothing) {
+            each.retain(|along| *along != Self::Nothing);
+        }
+        each.dedup();
+        match each[..] {
+            [along] => along,
+            _ => Self::Motion,
         }
     }
 }
@@ -71,13 +89,17 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
         }
         let share = 100.0 * left.share;
         let step = found.iter().find_map(|one| one.step);
-        let along = Along::all(&found);
+        let exceeded = verdict.noise_floor[joint].exceeded();
+        let each = found.iter();
+        let along = Along::together(each.map(|one| Along::of(one, exceeded.is_some())));
         let follows = match (along, left.is_material()) {
             (Along::Step, true) => "comes from a level that changes",
             (Along::Time, true) => "wanders in time",
             (Along::Motion, true) => "still follows the motion",
+            (Along::Nothing, true) => "is no noise",
             (Along::Time, false) => "wanders in time in part",
-            (_, false) => "follows the motion in part",
+            (Along::Nothing, false) => "is no noise in part",
+            (Along::Motion | Along::Step, false) => "follows the motion in part",
         };
         let follows = if left.is_material() {
             format!("{share:.0} % of the error's power on {name} {follows}")
@@ -85,7 +107,6 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
             format!("the error on {name} {follows}")
         };
         let step = step.map(|step| stepped(closed, joint, &step));
-        let exceeded = verdict.noise_floor[joint].exceeded();
         let exceeded = exceeded.filter(|_| verdict.outcome == Outcome::Unexplained);
         let exceeded = exceeded.map(|times| {
             format!(
@@ -182,5 +203,22 @@ fn quantity(of: Quantity, names: &[String]) -> String {
         (Quantity::VelocityAndTime(_), [joint]) => format!("velocity of {joint} and time"),
         (_, []) => name,
         _ => format!("{name} of {}", joints.join(" and ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Along;
+
+    #[test]
+    fn joints_go_along_with_what_all_that_is_known_of_them_does() {
+        use Along::{Motion, Nothing, Step, Time};
+        let together = |each: &[Along]| Along::together(each.iter().copied());
+        assert_eq!(together(&[]), Motion);
+        assert_eq!(together(&[Time, Time]), Time);
+        assert_eq!(together(&[Time, Nothing]), Time);
+        assert_eq!(together(&[Nothing]), Nothing);
+        assert_eq!(together(&[Step, Time]), Motion);
+        assert_eq!(together(&[Step, Motion, Step]), Motion);
     }
 }

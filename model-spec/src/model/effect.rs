@@ -100,6 +100,33 @@ impl EffectDefinition {
         })
     }
 
+    /// Whether links give way in proportion to the load of the transmission, as at a spring: then its stiffness is known as well as the load.
+    #[must_use]
+    pub fn gives_way(&self) -> bool {
+        self.acts.iter().any(|act| match act {
+            Act::Position { value, .. } => {
+                let [once, twice] = [1.0, 2.0].map(|load| self.under_load(value, load));
+                once.zip(twice).is_some_and(|(once, twice)| {
+                    once != 0.0 && (twice - 2.0 * once).abs() < 1e-9 * once.abs()
+                })
+            }
+            Act::Force { .. } | Act::Body { .. } | Act::Tilt { .. } | Act::Delay { .. } => false,
+        })
+    }
+
+    /// The value of an expression at rest under so much load, with parameters at 1; none where it is not made of numbers alone.
+    fn under_load(&self, value: &EffectExpr, load: f64) -> Option<f64> {
+        value.number(&|leaf| match leaf {
+            EffectLeaf::Linear(_) | EffectLeaf::Shape(_) => Some(1.0),
+            EffectLeaf::Signal(Signal::RigidTorque, _) => Some(load),
+            EffectLeaf::Signal(..)
+            | EffectLeaf::Time
+            | EffectLeaf::Input(_)
+            | EffectLeaf::State(_) => Some(0.0),
+            EffectLeaf::Binding(k) => self.under_load(&self.bindings[*k].value, load),
+        })
+    }
+
     /// Whether an expression reads a leaf that is wanted, itself or through bindings.
     #[must_use]
     pub fn reads(&self, value: &EffectExpr, wanted: &dyn Fn(&EffectLeaf) -> bool) -> bool {

@@ -210,12 +210,15 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
         .clone()
         .filter(|j| laws(*j) > 0 && !left.contains(j))
         .count();
+    // A level that changes is no law of the motion that another one stands for: beside one that is settled it is another story.
+    let is_story = |joint: &&usize| settled == 0 || !after[**joint].is_of_level();
+    let elsewhere = left.iter().filter(is_story).count();
     let one_law_each = joints.clone().all(|j| laws(j) <= 1);
     let is_doubtful =
         |j: usize| laws(j) > 0 && is_another_law(&before[j], &after[j], state.stays(j));
     joints.clone().any(is_doubtful)
         || left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
-        || (!left.is_empty() && left.len() >= settled)
+        || (elsewhere > 0 && elsewhere >= settled)
 }
 
 /// Whether a joint's findings leave what the right law would not: structure, while most of the held-out error `stays`, a share of it.
@@ -233,6 +236,7 @@ mod tests {
             power,
             share,
             ratio: 2.0,
+            stepped: 0.0,
         };
         let before = structure(1.0, 0.3);
         assert!(is_another_law(&before, &structure(0.4, 0.1), 0.6));

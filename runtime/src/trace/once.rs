@@ -3,6 +3,8 @@
 //! A contact of three seconds, declared or named, is in one or two of the blocks of time that are held out together. What they then make of it is
 //! an extrapolation, which is as large as the contact, and any law that bends it is right or wrong by chance.
 
+use std::ops::Range;
+
 use crate::identify::{Segment, Stack};
 
 use super::folds::{FINER_S, Fold, fine};
@@ -61,12 +63,39 @@ fn cycle(segments: &[Segment], periods: &[Option<f64>]) -> f64 {
     rows.fold(f64::INFINITY, f64::min)
 }
 
-/// Whether a column is next to nothing for a run of so many rows.
-fn comes_once(values: &[f64], long: f64) -> bool {
+/// Runs of so many rows in which a column is next to nothing.
+fn runs_of_nothing(values: &[f64], long: f64) -> Vec<Range<usize>> {
     let largest = values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
     let is_there = |value: &f64| value.abs() > NEXT_TO_NOTHING * largest;
-    let runs = values.split(is_there).map(<[f64]>::len);
-    runs.max().unwrap_or(0) as f64 >= long
+    let mut next = 0;
+    let runs = values.split(is_there).map(|run| {
+        let first = next;
+        next = first + run.len() + 1;
+        first..first + run.len()
+    });
+    runs.filter(|run| !run.is_empty() && run.len() as f64 >= long)
+        .collect()
+}
+
+/// Whether a column is next to nothing for a run of so many rows.
+fn comes_once(values: &[f64], long: f64) -> bool {
+    !runs_of_nothing(values, long).is_empty()
+}
+
+impl Search<'_> {
+    /// Rows of a log, of all logs, at which a column of a joint's model that comes once begins or ends.
+    pub(super) fn edges_of_columns(&self, stack: &Stack, joint: usize, log: usize) -> Vec<usize> {
+        let segment = &stack.segments[log];
+        let rows = segment.start..segment.start + segment.time.len();
+        let long = LONG * cycle(&stack.segments, &self.periods);
+        let columns = stack.joints[joint].columns.iter();
+        let edges = columns.flat_map(|(_, values)| {
+            let runs = runs_of_nothing(&values[rows.clone()], long).into_iter();
+            runs.flat_map(|run| [run.start, run.end])
+        });
+        let inside = edges.filter(|row| (1..rows.len()).contains(row));
+        inside.collect()
+    }
 }
 
 /// The least share of the power of a column that comes once which the training of a fold has, over its share of rows.
@@ -103,6 +132,15 @@ mod tests {
     use super::*;
     use crate::columns::Unknown;
     use crate::identify::JointRows;
+
+    #[test]
+    fn a_column_that_comes_once_has_the_edges_of_its_long_runs_of_nothing() {
+        let column = [0.0, 0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(runs_of_nothing(&column, 3.0), [0..3, 6..10]);
+        assert_eq!(runs_of_nothing(&column, 4.0), [6..10]);
+        assert_eq!(runs_of_nothing(&[1.0; 4], 1.0), []);
+        assert!(comes_once(&[0.0; 4], 4.0) && !comes_once(&column, 5.0));
+    }
 
     /// Of a force that is there for three seconds some fold of those of all knows next to nothing, and of the torque of a motion all know enough.
     #[test]

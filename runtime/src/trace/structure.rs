@@ -34,6 +34,9 @@ const LEAST_RATIO: f64 = 4.0;
 /// motion leave some structure at the reversals of dry friction.
 pub(super) const MATERIAL_SHARE: f64 = 0.15;
 
+/// Structure is a level that changes where steps take more than this share of its power off.
+const OF_LEVEL: f64 = 0.5;
+
 /// Structure of one joint's residual.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
@@ -45,6 +48,8 @@ pub struct Structure {
     /// Density of power in the band of motion over that of the reference band, or of the part of the band of motion where it is least, if
     /// that is more.
     pub ratio: f64,
+    /// Power that steps of its level take off it, (N m)^2 or N^2.
+    pub(super) stepped: f64,
 }
 
 impl Structure {
@@ -64,6 +69,11 @@ impl Structure {
     #[must_use]
     pub fn is_material(&self) -> bool {
         self.share > MATERIAL_SHARE
+    }
+
+    /// Whether most of it is a level that changes: no law of the motion, and no word against one.
+    pub(super) fn is_of_level(&self) -> bool {
+        self.stepped > OF_LEVEL * self.power
     }
 
     /// No more of it than this power.
@@ -109,6 +119,7 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
         let periodic = log.period.map_or(0.0, |period| {
             (repeated_power(&log.filtered, period * log.filtered_hz) - log.encoder).max(0.0)
         });
+        found.stepped += weight * log.stepped;
         found.power += weight * above.max(rings).max(periodic).max(log.stepped);
         found.ratio = found.ratio.max(ratio);
     }

@@ -39,7 +39,7 @@ pub(super) fn verdict(page: &mut Page, closed: &Loop) {
     items.extend(found.map(|(place, finding)| {
         let values = effect(finding, closed, place).parameters;
         let values = values.iter().map(|own| {
-            let told = (own.name, own.value, own.std);
+            let told = (own.name, own.value, own.sure);
             parameter(closed, finding, told, |decimals| match own.interval {
                 Some([low, high]) => format!(" ({low:.decimals$} .. {high:.decimals$})"),
                 None => String::new(),
