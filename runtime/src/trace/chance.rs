@@ -8,8 +8,9 @@ pub(super) const SIGNIFICANCE: f64 = 1e-3;
 /// What takes as much off a joint's error that was not fitted, and off the raw one, needs no more of a score than this: a short log has few
 /// blocks, whose score may be no more beyond chance than that.
 ///
-/// What takes 65 % off, and half of the raw one, in all folds is none of noise's doing, however many laws are tried: zeros that wander made 13 %
-/// at most of laws of the motion. Of the five seconds of a real wrist the coupling of its motors was no more probable than 0.4 by its score.
+/// What takes 65 % off, and half of the raw one, in all folds needs a score that noise has less than once in all the laws that are tried. Of the
+/// five seconds of a real wrist that of the coupling of its motors was 0.4. An offset or a spring takes as much off a zero that walks by more than
+/// noise, and has no score at all then, as the walk is in its variance.
 const LARGE: [Large; 5] = [
     Large {
         held_out_percent: 65.0,

@@ -95,6 +95,7 @@ mod tests {
         kind: &'static str,
         unknowns: Vec<Unknown>,
         inputs: Vec<String>,
+        shapes: Vec<Shape>,
     }
 
     impl Columns for Law {
@@ -103,7 +104,7 @@ mod tests {
         }
 
         fn shapes(&self) -> &[Shape] {
-            &[]
+            &self.shapes
         }
 
         fn uses_rigid_torque(&self) -> bool {
@@ -138,6 +139,7 @@ mod tests {
             kind,
             unknowns: (0..parameters).map(unknown).collect(),
             inputs: inputs.iter().map(|&name| name.to_owned()).collect(),
+            shapes: Vec::new(),
         }
     }
 
@@ -211,6 +213,32 @@ mod tests {
         // 79 %, and 48 and 45 %.
         (laws[1].1, laws[2].1) = (1.44, 1.48);
         assert_eq!(chosen(&laws, &|_, _| false), ("stroke", Vec::new()));
+    }
+
+    /// Bristles whose friction does not rise have no use for a speed at which it does.
+    #[test]
+    fn a_law_with_a_shape_at_zero_is_a_simpler_one() {
+        let grids = [[0.1, 0.2, 0.3], [0.1, 0.2, 0.3], [0.0, 1.0, 2.0]].map(Vec::from);
+        let shapes = grids.map(|grid| Shape {
+            name: String::new(),
+            grid,
+        });
+        let bristles = Law {
+            shapes: shapes.into(),
+            ..law("bristles", 2, &[])
+        };
+        let complexity = |rise: f64, is_felt: [bool; 3]| {
+            let trial = Trial {
+                shapes: vec![0.15, 0.15, rise],
+                is_felt: is_felt.into(),
+                ..Trial::first_order(&bristles, Vec::new())
+            };
+            trial.complexity()
+        };
+        assert_eq!(complexity(0.5, [true; 3]), 5);
+        assert_eq!(complexity(0.5, [true, false, true]), 5);
+        assert_eq!(complexity(0.0, [true, false, true]), 3);
+        assert_eq!(complexity(0.0, [true; 3]), 4);
     }
 
     #[test]

@@ -75,7 +75,7 @@ pub(super) fn verdict(
 ) -> Verdict {
     let found = findings(state, &values.std);
     // Nor is all well where a law that is not the right one takes much off.
-    let is_doubtful = found.is_empty() && doubtful(&tried).is_some();
+    let is_doubtful = found.is_empty() && doubtful(&tried, &after).is_some();
     let is_settled = !is_beyond && !unsettled(&before, &after, state);
     let left = is_doubtful || !is_settled;
     let outcome = match (left, found.is_empty()) {

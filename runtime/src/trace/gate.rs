@@ -287,6 +287,7 @@ impl Judged<'_> {
             shapes: changed.unwrap_or(&self.trial.shapes).clone(),
             evidence: self.evidence.clone(),
             refusals: self.refusals.clone(),
+            follows_torque: self.trial.candidate.follows_torque(),
         }
     }
 }

@@ -135,17 +135,31 @@ impl<'a> Trial<'a> {
         self.candidate.unknowns().len()
     }
 
-    /// Parameters that the effect adds to the model: what a simpler law has fewer of.
+    /// Parameters that the effect adds to the model: what a simpler law has fewer of. Beside a shape that stands at zero those that change nothing
+    /// do not count either: bristles whose friction does not rise have no Stribeck speed, and are Dahl's.
     pub(super) fn complexity(&self) -> usize {
-        self.count() + self.shapes.len()
+        let numbers = 0..self.shapes.len();
+        let at_zero = numbers.clone().filter(|&number| self.is_at_zero(number));
+        let is_simpler = at_zero.count() > 0;
+        let is_used = |number: &usize| !self.is_at_zero(*number) && self.is_felt(*number);
+        let shapes = if is_simpler {
+            numbers.filter(is_used).count()
+        } else {
+            self.shapes.len()
+        };
+        self.count() + shapes
+    }
+
+    /// Whether a shape changes what it explains, as far as that was asked.
+    fn is_felt(&self, number: usize) -> bool {
+        self.is_felt.get(number).copied().unwrap_or(true)
     }
 
     /// Whether every shape is inside its range: an optimum at the end of a range is that of another law. Nothing lies beyond a range that
     /// begins at zero, so that zero is inside. What comes and goes is seen to come and to go.
     pub(super) fn is_inside(&self) -> bool {
         let mut numbers = 0..self.shapes.len();
-        let is_felt = |number: usize| self.is_felt.get(number).copied().unwrap_or(true);
-        let is_own = |number: usize| self.is_within(number) && is_felt(number);
+        let is_own = |number: usize| self.is_within(number) && self.is_felt(number);
         match self.presence {
             Presence::Nearly => false,
             // A force that is there from the first sample on, or to the last, is a step, which a wander of the zero makes as well.

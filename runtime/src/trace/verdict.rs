@@ -92,6 +92,8 @@ pub struct Tried {
     pub evidence: Evidence,
     /// Why it may not be named; empty for one that may.
     pub refusals: Vec<Refusal>,
+    /// Whether it reads the logged torque, whose noise it may be.
+    pub(super) follows_torque: bool,
 }
 
 impl Tried {
@@ -215,8 +217,8 @@ pub(super) const DOUBT_PERCENT: f64 = 10.0;
 /// of all folds together is more than what a fit has by being a fit. A zero that wanders takes as much, by an offset that is chance.
 const MUCH_PERCENT: f64 = 20.0;
 
-/// See [`Verdict::doubtful`].
-pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
+/// See [`Verdict::doubtful`]; with the structure that is left of every joint.
+pub(super) fn doubtful<'a>(tried: &'a [Tried], left: &[Structure]) -> Option<&'a Tried> {
     let last = tried.iter().map(|tried| tried.round).max()?;
     let most = |tried: &Tried| tried.of_its_joints(&tried.evidence.raw_percent);
     let takes_much = |tried: &Tried| {
@@ -233,8 +235,14 @@ pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
             EndOfRange | HeldOut | Sign | Undetermined | Unsteady
         )
     };
+    // What reads the logged torque explains its noise.
+    let may_be_noise = |tried: &Tried| {
+        let mut joints = tried.joints.iter();
+        tried.follows_torque && !joints.any(|joint| left[*joint].is_material())
+    };
     let doubted = tried.iter().filter(|tried| {
         tried.round == last
+            && !may_be_noise(tried)
             && !tried.refusals.is_empty()
             && tried.refusals.iter().all(is_of_law)
             && takes_much(tried)
@@ -304,7 +312,7 @@ impl Verdict {
 
     /// Where nothing was named: of the laws of the last round against which only their signs or ranges, folds that disagree or parameters that
     /// are traded speak, the one that takes most off the error of its joints, where that is a tenth or more. It is not the law, and something
-    /// like it is missing.
+    /// like it is missing. One that reads the logged torque counts only on joints with structure.
     ///
     /// # Examples
     /// ```
@@ -319,7 +327,7 @@ impl Verdict {
     #[must_use]
     pub fn doubtful(&self) -> Option<&Tried> {
         let is_open = self.outcome == Outcome::Unexplained && self.leads.is_empty();
-        doubtful(&self.tried).filter(|_| is_open)
+        doubtful(&self.tried, &self.after).filter(|_| is_open)
     }
 
     /// This one, which goes on, with what was found after it.

@@ -9,7 +9,12 @@ fn tried(kind: &str, round: usize, percent: f64, refusals: &[Refusal]) -> Tried 
         shapes: Vec::new(),
         evidence: evidence(percent),
         refusals: refusals.to_vec(),
+        follows_torque: false,
     }
+}
+
+fn doubted(tried: &[Tried]) -> Option<&Tried> {
+    doubtful(tried, &[Structure::default(); 2])
 }
 
 /// Of the second of two joints; what moves on the first is not the law's.
@@ -31,7 +36,7 @@ fn verdict(outcome: Outcome, findings: Vec<Finding>, is_settled: bool) -> Verdic
         alternatives: Vec::new(),
         tried: Vec::new(),
         before: Vec::new(),
-        after: Vec::new(),
+        after: vec![Structure::default(); 2],
         left: Vec::new(),
         noise_floor: Vec::new(),
         turn_speeds: Vec::new(),
@@ -73,8 +78,8 @@ fn a_law_that_may_not_be_named_says_that_something_is_missing() {
         tried("little", 1, 9.0, &[Refusal::EndOfRange]),
         tried("it", 1, 12.0, &[Refusal::Sign, Refusal::EndOfRange]),
     ];
-    assert_eq!(doubtful(&all).map(|tried| tried.kind.as_str()), Some("it"));
-    assert_eq!(doubtful(&all[..4]), None);
+    assert_eq!(doubted(&all).map(|tried| tried.kind.as_str()), Some("it"));
+    assert_eq!(doubted(&all[..4]), None);
     for (refusal, is_of_law) in [
         (Refusal::Sign, true),
         (Refusal::EndOfRange, true),
@@ -85,14 +90,24 @@ fn a_law_that_may_not_be_named_says_that_something_is_missing() {
         (Refusal::AtTurns, false),
     ] {
         let alone = [tried("it", 1, 12.0, &[refusal])];
-        assert_eq!(doubtful(&alone).is_some(), is_of_law, "{refusal}");
+        assert_eq!(doubted(&alone).is_some(), is_of_law, "{refusal}");
     }
     let in_some_folds =
-        |percent| doubtful(&[tried("a gap", 1, percent, &[Refusal::HeldOut])]).is_some();
+        |percent| doubted(&[tried("a gap", 1, percent, &[Refusal::HeldOut])]).is_some();
     assert!(in_some_folds(24.0) && !in_some_folds(18.0));
     let mut uneven = tried("a gap", 1, 24.0, &[Refusal::HeldOut]);
     uneven.evidence.held_out_percent = vec![0.0, 10.0];
-    assert_eq!(doubtful(&[uneven]), None);
+    assert_eq!(doubted(&[uneven]), None);
+    // The noise of a logged torque is none of its own law, but for a joint with structure.
+    let mut limit = tried("a limit", 1, 24.0, &[Refusal::Undetermined]);
+    limit.follows_torque = true;
+    let with_structure = Structure {
+        share: 0.5,
+        ..Structure::default()
+    };
+    let limit = [limit];
+    assert_eq!(doubted(&limit), None);
+    assert!(doubtful(&limit, &[Structure::default(), with_structure]).is_some());
     // What was found speaks for itself.
     let of = |outcome, findings| Verdict {
         tried: all.to_vec(),
