@@ -7,6 +7,7 @@ use robot_model_codegen::Compiled;
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{InertialElement, Owner};
 
+use super::series::WINDOW_S;
 use super::{Drawn, Map, Page, comment};
 use crate::identify::report::Parameter;
 use crate::output::{decimals, significant};
@@ -244,13 +245,18 @@ pub(crate) fn figures(
     let mut legend = vec![("measured", "measured")];
     legend.extend(models);
     let last = models.last().map_or("model", |(_, name)| *name);
+    let window = if drawn.is_long() {
+        format!(" (of the {WINDOW_S:.0} s with the largest residual)")
+    } else {
+        String::new()
+    };
     for (joint, name) in joints.iter().enumerate() {
         page.folded(name, is_open(joint), |page| {
             page.figures(
                 &drawn.of_joint(joint, name),
                 &legend,
                 &format!(
-                    "{name}: (a) measured torque and that of the {last} over time, raw samples; residual (measured minus predicted torque) over \
+                    "{name}: (a) measured torque and that of the {last} over time{window}, raw samples; residual (measured minus predicted torque) over \
                      (b) velocity, (c) position, (d) load and (e) time, in the band of the fit; (f) square root of its spectral density, raw samples."
                 ),
             );

@@ -1,5 +1,7 @@
 //! What is drawn of a model on a log.
 
+use std::ops::Range;
+
 use robot_model::columns::Arm;
 use robot_model::identify::{Estimate, judged_samples};
 use robot_model::log::Log;
@@ -14,6 +16,10 @@ use crate::units::Units;
 /// Most dots of a color in a drawing, and most points of a line, two for each place.
 const DOTS: usize = 400;
 const PLACES: usize = 500;
+
+/// Of a log that is longer, torques are drawn for so long, s: strokes of a minute are a comb on a page.
+const LONGEST_S: f64 = 20.0;
+pub(crate) const WINDOW_S: f64 = 10.0;
 
 /// Bands of a spectrum, from here on to two fifths of the rate.
 const LOWEST_HZ: f64 = 0.25;
@@ -118,6 +124,18 @@ impl Drawn {
         let last = &self.models[self.models.len() - 1];
         // Filters swing at both ends, which no error counts.
         let counts = judged_samples(self.time.len(), self.rate_hz);
+        let [measured, predicted] = if self.is_long() {
+            let rest = self.measured[joint].iter().zip(&last.predicted[joint]);
+            let rest: Vec<f64> = rest
+                .map(|(measured, predicted)| measured - predicted)
+                .collect();
+            let end = self.time[0] + WINDOW_S;
+            let samples = self.time.partition_point(|time| *time < end);
+            let window = worst(&rest, counts, samples);
+            [window.clone(), window]
+        } else {
+            [0..self.time.len(), counts]
+        };
         Chart {
             label: &format!("measured and predicted torque of {name} over time"),
             letter: Some('a'),
@@ -125,15 +143,24 @@ impl Drawn {
             y: &format!("torque, {}", self.units[joint].torque),
             is_logarithmic: false,
             series: vec![
-                line(Ink::Measured, &self.time, &self.measured[joint]),
+                line(
+                    Ink::Measured,
+                    &self.time[measured.clone()],
+                    &self.measured[joint][measured],
+                ),
                 line(
                     last.color,
-                    &self.time[counts.clone()],
-                    &last.predicted[joint][counts],
+                    &self.time[predicted.clone()],
+                    &last.predicted[joint][predicted],
                 ),
             ],
         }
         .svg()
+    }
+
+    /// Whether torques are drawn of the seconds with the largest residual only.
+    pub(crate) fn is_long(&self) -> bool {
+        judged_samples(self.time.len(), self.rate_hz).len() as f64 > LONGEST_S * self.rate_hz
     }
 
     fn errors(&self, joint: usize, name: &str) -> Vec<String> {
@@ -217,6 +244,22 @@ fn edges(highest: f64) -> Vec<f64> {
         .collect()
 }
 
+/// So many samples among those that count in which a residual has the largest mean square.
+fn worst(residual: &[f64], counts: Range<usize>, samples: usize) -> Range<usize> {
+    let squares = |range: Range<usize>| residual[range].iter().map(|r| r * r).sum::<f64>();
+    let mut from = counts.start;
+    let mut sum = squares(from..from + samples);
+    let mut most = (sum, from);
+    while from + samples < counts.end {
+        sum += residual[from + samples].powi(2) - residual[from].powi(2);
+        from += 1;
+        if sum > most.0 {
+            most = (sum, from);
+        }
+    }
+    most.1..most.1 + samples
+}
+
 /// A long line by the least and the largest value in each of some places.
 fn envelope(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     let count = time.len().min(values.len());
@@ -239,7 +282,20 @@ fn envelope(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{LOWEST_HZ, SEGMENT_S, edges, envelope};
+    use super::{LOWEST_HZ, SEGMENT_S, edges, envelope, worst};
+
+    #[test]
+    fn the_window_of_a_long_log_is_that_of_the_largest_residual() {
+        let mut residual = vec![1.0; 100];
+        residual[60..70].fill(3.0);
+        assert_eq!(worst(&residual, 10..90, 10), 60..70);
+        // What does not count is not drawn.
+        residual[..10].fill(9.0);
+        residual[90..].fill(-9.0);
+        assert_eq!(worst(&residual, 10..90, 10), 60..70);
+        assert_eq!(worst(&residual, 0..100, 10), 0..10);
+        assert_eq!(worst(&residual, 10..90, 80), 10..90);
+    }
 
     #[test]
     fn bands_are_resolved_and_reach_to_the_highest() {

@@ -234,6 +234,25 @@ fn own_effects_stand_beside_the_standard_ones() {
     ));
 }
 
+/// A spring does; a gap is crossed at once, and another zero is where it is.
+#[test]
+fn links_give_way_to_their_load_at_springs() {
+    let text = format!(
+        "robot Arm {{ gravity = [0, 0, 0]; {TWO} effects {{ soft on b; }} }}
+         /// Soft.
+         effect soft(j) {{
+             /// N m/rad.
+             shape k in 1 .. 100;
+             let load = rigid_torque(j);
+             position(j) = -2 * load / k;
+         }}"
+    );
+    let model = load("arm.robot", &text).unwrap_or_else(|errors| panic!("{errors}"));
+    let all = model.definitions.iter().filter(|one| one.gives_way());
+    let names: Vec<&str> = all.map(|one| one.name.as_str()).collect();
+    assert_eq!(names, ["joint_elasticity", "soft"]);
+}
+
 #[test]
 fn a_derive_builds_the_same_tree_from_tokens() {
     let word = |text: &str| syn::parse_str::<syn::Ident>(text).unwrap();

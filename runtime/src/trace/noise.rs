@@ -12,6 +12,7 @@ use super::floor::STEPS_OVER_NOISE;
 use super::gate::{Baseline, Judged, MATERIAL_PERCENT};
 use super::raw::mean_square;
 use super::search::{Search, State};
+use super::sure::takes_most;
 use super::trial::Trial;
 use super::verdict::{Evidence, Refusal};
 
@@ -22,8 +23,8 @@ const MORE_THAN_NOISE_PERCENT: f64 = 20.0;
 const MOST_LEFT: f64 = 0.5;
 
 impl Search<'_> {
-    /// Whether a change of the arm that reads the torque explains more than noise of the positions, and either takes structure off, or lowers
-    /// the error of another joint than that whose torque it reads by as much as matters, or its first order lowers an error so where it reads
+    /// Whether a change of the arm that reads the torque explains more than noise of the positions, and either takes nearly all of an error, or
+    /// structure off, or lowers the error of another joint than that whose torque it reads by as much as matters, or its first order lowers an error so where it reads
     /// the torque of the model, on a joint where the change itself does.
     pub(super) fn is_more_than_noise(
         &self,
@@ -36,7 +37,12 @@ impl Search<'_> {
             return false;
         }
         let own = judged.trial.candidate.joints();
-        if self.takes_structure(state, judged) || helps_another_joint(own, &judged.evidence) {
+        // Noise that explains itself left half of it, held out, of arms that lacked nothing: its second derivative is another series.
+        let evidence = &judged.evidence;
+        if takes_most(evidence, false)
+            || self.takes_structure(state, judged)
+            || helps_another_joint(own, evidence)
+        {
             return true;
         }
         let Ok(entries) = self.first_order(state, change, self.without_noise(state)) else {

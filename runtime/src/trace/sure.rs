@@ -99,7 +99,7 @@ impl Search<'_> {
 ///
 /// One column that takes much off fits next to nothing that is another law's, whatever it trades with its one shape: of `fv exp(-beta T)` beside
 /// viscous friction a small `beta` and a large `fv` say the same, and how friction falls with the temperature is told.
-fn takes_most(evidence: &Evidence, is_simple: bool) -> bool {
+pub(super) fn takes_most(evidence: &Evidence, is_simple: bool) -> bool {
     let pairs = || evidence.held_out_percent.iter().zip(&evidence.raw_percent);
     let beyond = |(least_held_out, least_raw): (f64, f64)| {
         pairs().any(|(held_out, raw)| *held_out > least_held_out && *raw > least_raw)

@@ -70,6 +70,7 @@ mod slips;
 mod slower;
 mod starts;
 mod sticks;
+mod stiffness;
 mod trace;
 mod turns;
 mod verdicts;
