@@ -78,8 +78,26 @@ pub(super) fn doubt(
         factor: both / nominal,
         cosine: both / (nominal * logged).sqrt(),
     };
-    let all: Vec<Likeness> = sums.into_iter().map(likeness).collect();
-    said(&all, &estimate.joints, is_odd)
+    let hidden = hidden(form.compiled());
+    let joints = sums.into_iter().zip(&estimate.joints).enumerate();
+    let joints = joints.filter(|(joint, _)| !hidden.contains(joint));
+    let joints = joints.map(|(_, (sums, name))| (likeness(sums), name.clone()));
+    let (all, names): (Vec<Likeness>, Vec<String>) = joints.unzip();
+    said(&all, &names, is_odd)
+}
+
+/// Joints of effects of which the logs tell only a sum with links, as of a rotor at the foot of an arm: how much of a torque is theirs is not known.
+fn hidden(compiled: &Compiled) -> Vec<usize> {
+    let is_link = |k: usize| matches!(compiled.standard[k].owner, Owner::Link { .. });
+    let sums = compiled.base.combinations.iter();
+    let sums = sums.filter(|sum| sum.iter().any(|&(k, _)| is_link(k)));
+    let joints = sums
+        .flatten()
+        .flat_map(|&(k, _)| match compiled.standard[k].owner {
+            Owner::Effect { effect, .. } => compiled.model.effects[effect].joints.as_slice(),
+            Owner::Link { .. } | Owner::Monomial(_) => &[],
+        });
+    joints.copied().collect()
 }
 
 /// What was found of friction, rotors and other effects, and nothing of links: friction may well be more than a link's torque.
@@ -214,6 +232,21 @@ mod tests {
         let all: Vec<Likeness> = all.iter().map(likeness).collect();
         let joints: Vec<String> = (1..=all.len()).map(|k| format!("j{k}")).collect();
         said(&all, &joints, is_odd)
+    }
+
+    /// The rotors of the first two joints are in sums with links; that of the third has a number of its own.
+    #[test]
+    fn a_rotor_in_a_sum_with_a_link_says_nothing_of_gains() {
+        let text = "robot A {
+            gravity = [0, 0, -9.81];
+            convention = standard_dh;
+            joint foot: revolute { a = 0; alpha = 90 deg; d = 0.4; }
+            joint lift: revolute { a = 0.5; alpha = 0; d = 0; }
+            joint bend: revolute { a = 0.3; alpha = 0; d = 0; }
+            effects { viscous_friction on all; motor_inertia on all; }
+        }";
+        let model = robot_model_spec::load("arm.robot", text).expect("a spec");
+        assert_eq!(hidden(&robot_model_codegen::compile_model(&model)), [0, 1]);
     }
 
     #[test]
