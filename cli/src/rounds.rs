@@ -46,12 +46,17 @@ impl Rounds {
             self.each = Some(took.div_f64(done));
         }
         let each = self.each.map(|each| {
-            let seconds = Duration::from_secs_f64(each.as_secs_f64().round());
-            // Nobody knows which round is the last: this is how long it takes if all are wanted.
-            let rest = self.most.saturating_sub(self.count) as f64 + 1.0 - done;
-            let rest = Duration::from_secs_f64((rest * each.as_secs_f64()).round());
-            let [each, rest] = [seconds, rest].map(HumanDuration);
-            format!(", {each:#} each: {rest:#} more at most")
+            let rounds = |count: f64| {
+                let seconds = (count * each.as_secs_f64()).round();
+                HumanDuration(Duration::from_secs_f64(seconds))
+            };
+            // Nobody knows which round is the last.
+            let all = self.most.saturating_sub(self.count) as f64 + 1.0 - done;
+            format!(
+                ": {:#} more for this one, {:#} if all are needed",
+                rounds(1.0 - done),
+                rounds(all)
+            )
         });
         let (most, each) = (self.most, each.unwrap_or_default());
         format!("{words}; at most {most} rounds{each}")
@@ -73,9 +78,15 @@ mod tests {
         let ago = Instant::now().checked_sub(Duration::from_secs(20));
         rounds.begun = ago.expect("a machine that is on");
         let told = rounds.told("round 1", Some(0.5));
-        assert_eq!(told, "round 1; at most 6 rounds, 40s each: 4m more at most");
+        assert_eq!(
+            told,
+            "round 1; at most 6 rounds: 20s more for this one, 4m if all are needed"
+        );
         // The next one begins with what is known of the one before.
         let told = rounds.told("round 2", Some(0.0));
-        assert_eq!(told, "round 2; at most 6 rounds, 40s each: 3m more at most");
+        assert_eq!(
+            told,
+            "round 2; at most 6 rounds: 40s more for this one, 3m if all are needed"
+        );
     }
 }

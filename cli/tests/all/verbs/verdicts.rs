@@ -98,7 +98,7 @@ fn mended() -> Vec<Fault> {
         (
             "a short gap",
             without(800..806),
-            "samples are missing, once, at 4.000 s, 6 samples in all",
+            "samples are missing, once, at 4.000 s, 6 samples, ",
             None,
         ),
         ("late velocity", late, "dq1 is 0.06", Some("velocity-late")),

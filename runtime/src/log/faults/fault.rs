@@ -198,10 +198,15 @@ impl fmt::Display for Stretches {
             first,
             longest,
         } = self;
+        let [plural, in_all, at_most] = match (times, samples) {
+            (1, 1) => ["", "", ""],
+            (1, _) => ["s", "", ""],
+            _ => ["s", " in all", " at most"],
+        };
         write!(
             f,
-            "{}, {samples} samples in all, {longest:.3} s at most; they were replaced by interpolation, and nothing is fitted around those \
-             of more than 10 ms",
+            "{}, {samples} sample{plural}{in_all}, {longest:.3} s{at_most}; they were replaced by interpolation, and nothing is fitted around \
+             those of more than 10 ms",
             how_often(*times, *first)
         )
     }
