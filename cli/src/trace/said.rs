@@ -63,11 +63,11 @@ const fn unexplained(along: Along, has_leads: bool) -> &'static str {
             "the residual's level changes; the listed effects pass the gates but do not explain that, so none is named"
         }
         (Along::Nothing, false) => {
-            "the residual is more than noise, but follows from no quantity that it was compared with; no known effect explains it"
+            "the residual is more than noise, but most of it follows from no quantity that it was compared with; no known effect explains it"
         }
         (Along::Nothing, true) => {
-            "the residual is more than noise, but follows from no quantity that it was compared with; the listed effects pass the gates but \
-             do not explain it, so none is named"
+            "the residual is more than noise, but most of it follows from no quantity that it was compared with; the listed effects pass the \
+             gates but do not explain it, so none is named"
         }
     }
 }

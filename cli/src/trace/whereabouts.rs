@@ -14,6 +14,9 @@ const LEAST_PERCENT: f64 = 10.0;
 /// A step is what structure is where it takes this share off it.
 const MOST: f64 = 0.5;
 
+/// Structure follows what says so much of it.
+const FOLLOWS: f64 = 0.25;
+
 /// Two quantities at once are told where they say so much more than one alone.
 const MORE: f64 = 0.1;
 
@@ -25,7 +28,7 @@ pub(super) enum Along {
     Time,
     /// A level that changes.
     Step,
-    /// Nothing that was asked says a tenth of it.
+    /// Nothing that was asked says a quarter of it.
     Nothing,
 }
 
@@ -41,11 +44,17 @@ impl Along {
         let of_one = most(&|of| of != Quantity::Time && !of.is_surface());
         let of_two = most(&Quantity::is_surface) - MORE;
         let of_motion = terms.fold(of_one.max(of_two), f64::max);
-        if one.step.is_some_and(|step| step.share > MOST) {
+        let of_step = one.step.map_or(0.0, |step| step.share);
+        Self::by(of_step, of_time, of_motion, repeats)
+    }
+
+    /// By the shares that steps, time and the motion have.
+    fn by(of_step: f64, of_time: f64, of_motion: f64, repeats: bool) -> Self {
+        if of_step > MOST {
             Self::Step
         } else if repeats {
             Self::Motion
-        } else if 100.0 * of_time.max(of_motion) < LEAST_PERCENT {
+        } else if of_time.max(of_motion) < FOLLOWS {
             Self::Nothing
         } else if of_time > of_motion {
             Self::Time
@@ -209,6 +218,16 @@ fn quantity(of: Quantity, names: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::Along;
+
+    #[test]
+    fn structure_goes_along_with_what_says_most_of_it() {
+        assert_eq!(Along::by(0.6, 0.9, 0.9, true), Along::Step);
+        assert_eq!(Along::by(0.4, 0.6, 0.3, false), Along::Time);
+        assert_eq!(Along::by(0.4, 0.3, 0.6, false), Along::Motion);
+        assert_eq!(Along::by(0.4, 0.2, 0.2, false), Along::Nothing);
+        // What comes back in every period is none of time's.
+        assert_eq!(Along::by(0.4, 0.2, 0.2, true), Along::Motion);
+    }
 
     #[test]
     fn joints_go_along_with_what_all_that_is_known_of_them_does() {

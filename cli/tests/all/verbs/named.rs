@@ -197,7 +197,10 @@ fn a_law_of_time_is_told_by_its_frequency() {
         "{out}"
     );
     assert!(
-        told.contains("not a function of position, velocity"),
+        told.contains("not a function of position, velocity")
+            && told.contains(
+                "most of it follows from no quantity that it was compared with; no known"
+            ),
         "{told}"
     );
 }
