@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use robot_model_spec::Model;
+use robot_model_spec::parameter::Owner;
 
 use crate::block::Block;
 use crate::compiled::Compiled;
@@ -91,12 +92,29 @@ impl Compiled {
     /// motor, which are two where links move against their motors.
     #[must_use]
     pub fn mixed(&self) -> Vec<&str> {
-        let is_rigid = |&(k, _): &(usize, f64)| self.model.is_rigid(&self.standard[k]);
+        self.sums(|_| true).collect()
+    }
+
+    /// Those with an effect on one of some joints: a motor's inertia acts on its own joint alone, so that the load of another is known in spite of it.
+    #[must_use]
+    pub fn mixed_on(&self, joints: &[usize]) -> Vec<&str> {
+        let acts = |joint: &usize| joints.contains(joint);
+        self.sums(|effect| self.model.effects[effect].joints.iter().any(acts))
+            .collect()
+    }
+
+    /// Base parameters of the rigid body and of some effect that is wanted.
+    fn sums(&self, is_wanted: impl Fn(usize) -> bool) -> impl Iterator<Item = &str> {
+        let is_rigid = |k: usize| self.model.is_rigid(&self.standard[k]);
+        let is_of_effect = move |k: usize| match self.standard[k].owner {
+            Owner::Effect { effect, .. } => !is_rigid(k) && is_wanted(effect),
+            Owner::Link { .. } | Owner::Monomial(_) => false,
+        };
         let combinations = self.base.names.iter().zip(&self.base.combinations);
-        let mixed = combinations.filter(|(_, combination)| {
-            combination.iter().any(is_rigid) && !combination.iter().all(is_rigid)
+        let mixed = combinations.filter(move |(_, sum)| {
+            sum.iter().any(|&(k, _)| is_rigid(k)) && sum.iter().any(|&(k, _)| is_of_effect(k))
         });
-        mixed.map(|(name, _)| name.as_str()).collect()
+        mixed.map(|(name, _)| name.as_str())
     }
 
     /// Seconds by which the log's torques are late, one output; reads shapes. `None` where they are not.

@@ -94,7 +94,7 @@ impl Loop {
         let effect = self.effect_name(place);
         let arm = self.after().arm.compiled();
         let mut definitions = arm.model.definitions.iter();
-        let is_nominal = !arm.mixed().is_empty()
+        let is_nominal = !arm.mixed_on(&finding.joints).is_empty()
             && definitions.any(|one| one.name == finding.effect && one.gives_way());
         let all = self.after().parameters(finding, effect.as_deref());
         let sure = |std: Option<f64>| match std {

@@ -78,12 +78,8 @@ pub(super) fn doubt(
         factor: both / nominal,
         cosine: both / (nominal * logged).sqrt(),
     };
-    let hidden = hidden(form.compiled());
-    let joints = sums.into_iter().zip(&estimate.joints).enumerate();
-    let joints = joints.filter(|(joint, _)| !hidden.contains(joint));
-    let joints = joints.map(|(_, (sums, name))| (likeness(sums), name.clone()));
-    let (all, names): (Vec<Likeness>, Vec<String>) = joints.unzip();
-    said(&all, &names, is_odd)
+    let all: Vec<Likeness> = sums.into_iter().map(likeness).collect();
+    said(&all, &estimate.joints, &hidden(form.compiled()), is_odd)
 }
 
 /// Joints of effects of which the logs tell only a sum with links, as of a rotor at the foot of an arm: how much of a torque is theirs is not known.
@@ -125,7 +121,8 @@ fn nominal(compiled: &Compiled) -> Option<Vec<f64>> {
     Some(compiled.base.beta(&standard))
 }
 
-fn said(all: &[Likeness], joints: &[String], is_odd: bool) -> Option<String> {
+/// What factors say, those of hidden joints only where all joints have one in common.
+fn said(all: &[Likeness], joints: &[String], hidden: &[usize], is_odd: bool) -> Option<String> {
     if all.iter().any(|joint| !joint.cosine.is_finite()) {
         return None;
     }
@@ -143,11 +140,15 @@ fn said(all: &[Likeness], joints: &[String], is_odd: bool) -> Option<String> {
             short(factor)
         ));
     }
-    if let Some(alone) = alone(all, joints) {
+    let seen = (0..all.len()).filter(|joint| !hidden.contains(joint));
+    let seen = seen.map(|joint| (all[joint], joints[joint].clone()));
+    let (seen, names_of_seen): (Vec<Likeness>, Vec<String>) = seen.unzip();
+    if let Some(alone) = alone(&seen, &names_of_seen) {
         return Some(alone);
     }
     let is_turned = |joint: &Likeness| is_odd && joint.cosine < -ALIKE;
-    let turned = joints.iter().zip(all).filter(|(_, joint)| is_turned(joint));
+    let turned = names_of_seen.iter().zip(&seen);
+    let turned = turned.filter(|(_, joint)| is_turned(joint));
     let turned: Vec<&str> = turned.map(|(name, _)| name.as_str()).collect();
     (!turned.is_empty()).then(|| {
         format!(
@@ -231,7 +232,7 @@ mod tests {
         let likeness = |&(factor, cosine)| Likeness { factor, cosine };
         let all: Vec<Likeness> = all.iter().map(likeness).collect();
         let joints: Vec<String> = (1..=all.len()).map(|k| format!("j{k}")).collect();
-        said(&all, &joints, is_odd)
+        said(&all, &joints, &[], is_odd)
     }
 
     /// The rotors of the first two joints are in sums with links; that of the third has a number of its own.
@@ -247,6 +248,24 @@ mod tests {
         }";
         let model = robot_model_spec::load("arm.robot", text).expect("a spec");
         assert_eq!(hidden(&robot_model_codegen::compile_model(&model)), [0, 1]);
+    }
+
+    #[test]
+    fn hidden_joints_count_where_all_have_one_factor() {
+        let likeness = |factor: f64| Likeness {
+            factor,
+            cosine: 0.98,
+        };
+        let joints = ["j1", "j2", "j3"].map(str::to_owned);
+        let said = |factors: [f64; 3]| said(&factors.map(likeness), &joints, &[1], false);
+        assert_eq!(said([1.1, 2.0, 0.95]), None);
+        let told = said([0.6, 1.0, 1.0]).expect("one of two gains");
+        assert!(told.contains("`j1` and `j3`"), "{told}");
+        let told = said([1e3, 1.4e3, 900.0]).expect("a unit");
+        assert!(
+            told.contains("of all joints are about 1100 times"),
+            "{told}"
+        );
     }
 
     #[test]

@@ -28,8 +28,10 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
 
 /// That a parameter is of a motor and of a link that a spring parts from it.
 pub(crate) fn mixed(compiled: &Compiled) -> Option<String> {
-    compiled.displacements()?;
-    let mixed = compiled.mixed();
+    let effects = compiled.model.effects.iter();
+    let springs = effects.filter(|effect| effect.definition.gives_way());
+    let joints: Vec<usize> = springs.flat_map(|effect| effect.joints.clone()).collect();
+    let mixed = compiled.mixed_on(&joints);
     let name = mixed.first()?;
     let (share, wrong) = match compiled.motor_torque() {
         Some(_) => ("its nominal part", "as far as that is wrong"),

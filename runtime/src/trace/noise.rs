@@ -23,7 +23,7 @@ const MORE_THAN_NOISE_PERCENT: f64 = 20.0;
 const MOST_LEFT: f64 = 0.5;
 
 impl Search<'_> {
-    /// Whether a change of the arm that reads the torque explains more than noise of the positions, and either takes nearly all of an error, or
+    /// Whether a change of the arm that reads the torque explains more than noise of the positions, and either takes most of an error, or
     /// structure off, or lowers the error of another joint than that whose torque it reads by as much as matters, or its first order lowers an error so where it reads
     /// the torque of the model, on a joint where the change itself does.
     pub(super) fn is_more_than_noise(
@@ -37,7 +37,8 @@ impl Search<'_> {
             return false;
         }
         let own = judged.trial.candidate.joints();
-        // Noise that explains itself left half of it, held out, of arms that lacked nothing: its second derivative is another series.
+        // What is as flat as noise has a second derivative that explains a third of it at most, held out; of simulated arms that lacked nothing it
+        // was half.
         let evidence = &judged.evidence;
         if takes_most(evidence, false)
             || self.takes_structure(state, judged)

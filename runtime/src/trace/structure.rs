@@ -79,7 +79,9 @@ impl Structure {
     /// No more of it than this power.
     pub(super) fn limit(&mut self, most: f64) {
         if most < self.power {
-            self.share *= most / self.power;
+            let kept = most / self.power;
+            self.share *= kept;
+            self.stepped *= kept;
             self.power = most;
         }
     }
@@ -250,6 +252,24 @@ mod tests {
 
     fn structure(values: &[f64]) -> Structure {
         of(&[residual(values)])
+    }
+
+    /// What is a level stays one where less of it counts, and what is none does not become one.
+    #[test]
+    fn a_limit_of_structure_leaves_what_it_is() {
+        for (stepped, is_of_level) in [(0.9, true), (0.3, false)] {
+            let mut structure = Structure {
+                power: 1.0,
+                share: 0.8,
+                ratio: 2.0,
+                stepped,
+            };
+            for most in [2.0, 0.25] {
+                structure.limit(most);
+                assert_eq!(structure.is_of_level(), is_of_level);
+            }
+            assert!((structure.share - 0.2).abs() < 1e-12);
+        }
     }
 
     fn with(values: &[f64], law: impl Fn(f64) -> f64) -> Vec<f64> {

@@ -76,6 +76,17 @@ fn a_stiffness_has_no_interval_where_a_motor_and_its_link_are_one_number() {
     );
 }
 
+/// The rotor of the cart is in a sum with all masses, and loads no spring at the pendulum.
+#[test]
+fn a_sum_at_another_joint_says_nothing_of_a_stiffness() {
+    let values = r#"{"rail.viscous_friction.fv": 8, "arm.viscous_friction.fv": 0.6, "rail.coulomb_friction.fc": 5,
+        "arm.coulomb_friction.fc": 0.5, "rail.motor_inertia.ia": 1, "arm.motor_inertia.ia": 0.01}"#;
+    let truth = pendulum("motor_inertia on all; joint_elasticity(stiffness = 60) on arm;");
+    let (told, stiffness) = traced(&pendulum("motor_inertia on rail;"), &truth, values, motion);
+    assert!(stiffness["std"].as_f64().is_some(), "{stiffness}");
+    assert!(!told.contains("sums a motor"), "{told}");
+}
+
 /// Links that are known leave the motor's inertia to be told.
 #[test]
 fn a_stiffness_between_a_motor_and_a_known_link_has_an_interval() {
