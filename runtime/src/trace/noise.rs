@@ -24,8 +24,8 @@ const MOST_LEFT: f64 = 0.5;
 
 impl Search<'_> {
     /// Whether a change of the arm that reads the torque explains more than noise of the positions, and either takes most of an error, or
-    /// structure off, or lowers the error of another joint than that whose torque it reads by as much as matters, or its first order lowers an error so where it reads
-    /// the torque of the model, on a joint where the change itself does.
+    /// structure off, or lowers the error of another joint than that whose torque it reads by as much as matters, or its first order lowers
+    /// an error so where it reads the torque of the model, on a joint where the change itself does.
     pub(super) fn is_more_than_noise(
         &self,
         state: &State,
@@ -37,8 +37,7 @@ impl Search<'_> {
             return false;
         }
         let own = judged.trial.candidate.joints();
-        // What is as flat as noise has a second derivative that explains a third of it at most, held out; of simulated arms that lacked nothing it
-        // was half.
+        // The second derivative of noise that is flat explains a third of it, held out; of simulated arms that lacked nothing at most half.
         let evidence = &judged.evidence;
         if takes_most(evidence, false)
             || self.takes_structure(state, judged)
