@@ -88,14 +88,18 @@ impl Loop {
         self.after().effect_name(self.verdict.findings.len(), place)
     }
 
+    /// Whether links give way to their load by a finding.
+    pub(crate) fn is_spring(&self, finding: &Finding) -> bool {
+        let mut definitions = self.before.arm.compiled().model.definitions.iter();
+        definitions.any(|one| one.name == finding.effect && one.gives_way())
+    }
+
     /// Names and values of a finding's parameters, or of a lead's as it was traced, and how well they are known.
     #[must_use]
     pub fn parameters<'a>(&self, finding: &'a Finding, place: usize) -> Vec<(&'a str, f64, Sure)> {
         let effect = self.effect_name(place);
         let arm = self.after().arm.compiled();
-        let mut definitions = arm.model.definitions.iter();
-        let is_nominal = !arm.mixed_on(&finding.joints).is_empty()
-            && definitions.any(|one| one.name == finding.effect && one.gives_way());
+        let is_nominal = self.is_spring(finding) && !arm.mixed_on(&finding.joints).is_empty();
         let all = self.after().parameters(finding, effect.as_deref());
         let sure = |std: Option<f64>| match std {
             Some(_) if is_nominal => Sure::Nominal,

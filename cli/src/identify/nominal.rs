@@ -84,16 +84,10 @@ pub(super) fn doubt(
 
 /// Joints of effects of which the logs tell only a sum with links, as of a rotor at the foot of an arm: how much of a torque is theirs is not known.
 fn hidden(compiled: &Compiled) -> Vec<usize> {
-    let is_link = |k: usize| matches!(compiled.standard[k].owner, Owner::Link { .. });
-    let sums = compiled.base.combinations.iter();
-    let sums = sums.filter(|sum| sum.iter().any(|&(k, _)| is_link(k)));
-    let joints = sums
-        .flatten()
-        .flat_map(|&(k, _)| match compiled.standard[k].owner {
-            Owner::Effect { effect, .. } => compiled.model.effects[effect].joints.as_slice(),
-            Owner::Link { .. } | Owner::Monomial(_) => &[],
-        });
-    joints.copied().collect()
+    let joints = 0..compiled.model.joints.len();
+    joints
+        .filter(|joint| !compiled.mixed_on(&[*joint]).is_empty())
+        .collect()
 }
 
 /// What was found of friction, rotors and other effects, and nothing of links: friction may well be more than a link's torque.

@@ -120,10 +120,8 @@ fn without_motor(closed: &Loop) -> Option<String> {
                     .any(|value| value.contains(&reads))
         })
     };
-    let springs = closed.verdict.findings.iter().filter(|finding| {
-        let mut definitions = model.definitions.iter();
-        definitions.any(|one| one.name == finding.effect && one.gives_way())
-    });
+    let findings = closed.verdict.findings.iter();
+    let springs = findings.filter(|finding| closed.is_spring(finding));
     let joints = springs.flat_map(|finding| &finding.joints);
     let joints: Vec<&str> = joints
         .filter(|joint| !has_motor(**joint))

@@ -1,5 +1,6 @@
 //! What a trace ends with.
 
+mod doubt;
 mod refusal;
 
 use std::fmt;
@@ -9,6 +10,7 @@ use super::structure::Structure;
 use super::whereabouts::Whereabouts;
 use crate::columns::Candidate;
 
+pub(super) use doubt::{DOUBT_PERCENT, doubtful};
 pub use refusal::Refusal;
 
 /// Why an effect was accepted, in numbers.
@@ -117,7 +119,7 @@ impl Tried {
             ..
         } = &self.evidence;
         let most = [held_out_percent, raw_percent].map(|all| self.of_its_joints(all));
-        most.iter().all(|percent| *percent >= MUCH_PERCENT)
+        most.iter().all(|percent| *percent >= doubt::MUCH_PERCENT)
     }
 
     /// The most of its joints.
@@ -208,46 +210,6 @@ impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
-}
-
-/// From which share of a joint's error on, percent, a law that may not be named says that something is missing all the same.
-pub(super) const DOUBT_PERCENT: f64 = 10.0;
-
-/// The same of a law that is no better in every fold, as a gap is not that the joint crosses in some of them: what takes so much off both errors
-/// of all folds together is more than what a fit has by being a fit. A zero that wanders takes as much, by an offset that is chance.
-const MUCH_PERCENT: f64 = 20.0;
-
-/// See [`Verdict::doubtful`]; with the structure that is left of every joint.
-pub(super) fn doubtful<'a>(tried: &'a [Tried], left: &[Structure]) -> Option<&'a Tried> {
-    let last = tried.iter().map(|tried| tried.round).max()?;
-    let most = |tried: &Tried| tried.of_its_joints(&tried.evidence.raw_percent);
-    let takes_much = |tried: &Tried| {
-        if tried.refusals.contains(&Refusal::HeldOut) {
-            tried.takes_much()
-        } else {
-            most(tried) >= DOUBT_PERCENT
-        }
-    };
-    let is_of_law = |refusal: &Refusal| {
-        use Refusal::{EndOfRange, HeldOut, Sign, Undetermined, Unsteady};
-        matches!(
-            refusal,
-            EndOfRange | HeldOut | Sign | Undetermined | Unsteady
-        )
-    };
-    // What reads the logged torque explains its noise.
-    let may_be_noise = |tried: &Tried| {
-        let mut joints = tried.joints.iter();
-        tried.follows_torque && !joints.any(|joint| left[*joint].is_material())
-    };
-    let doubted = tried.iter().filter(|tried| {
-        tried.round == last
-            && !may_be_noise(tried)
-            && !tried.refusals.is_empty()
-            && tried.refusals.iter().all(is_of_law)
-            && takes_much(tried)
-    });
-    doubted.max_by(|a, b| most(a).total_cmp(&most(b)))
 }
 
 /// The result of a trace.

@@ -233,6 +233,21 @@ fn a_torque_that_steps_and_comes_back_is_no_noise() {
     assert!(told.contains("N m at 9.0 s and back at 15.0 s"), "{told}");
 }
 
+/// Drag of one joint is named, whatever holds another one for a while.
+#[test]
+fn a_torque_that_steps_demotes_no_law_of_another_joint() {
+    let log = folded("", "", |t, _| {
+        let dq = 0.9 * 2.1 * (2.1 * t).cos() - 0.2 * 5.3 * (5.3 * t).sin();
+        [if t < 12.0 { 0.0 } else { 1.5 }, 0.4 * dq * dq.abs()]
+    });
+    let (told, out) = told(&folding(""), &log);
+    assert_eq!(out["outcome"], "explained", "{told}");
+    let effects = out["effects"].as_array().expect("a list");
+    assert_eq!(effects.len(), 1, "{told}");
+    assert_eq!(effects[0]["joint"], 2, "{told}");
+    assert!(told.contains("N m at 12.0 s and stays there"), "{told}");
+}
+
 /// It is nothing at the first sample alone, which is no end of it.
 #[test]
 fn friction_that_settles_is_named() {
