@@ -18,6 +18,8 @@ pub enum Sure {
     Nominal,
     /// Not at all: others do the same.
     Traded,
+    /// Not at all: the logs do not show it, as a drive's largest speed that no motion comes near.
+    Unfelt,
 }
 
 impl Sure {
@@ -26,7 +28,18 @@ impl Sure {
     pub fn std(self) -> Option<f64> {
         match self {
             Self::Std(std) => Some(std),
-            Self::Nominal | Self::Traded => None,
+            Self::Nominal | Self::Traded | Self::Unfelt => None,
+        }
+    }
+
+    /// Why there is none, in the words of reports.
+    #[must_use]
+    pub const fn without_interval(self) -> Option<&'static str> {
+        match self {
+            Self::Std(_) => None,
+            Self::Nominal => Some("as far as the spec splits motor and link correctly"),
+            Self::Traded => Some("not separable from other parameters"),
+            Self::Unfelt => Some("not determined by these logs"),
         }
     }
 }
@@ -101,13 +114,14 @@ impl Loop {
         let arm = self.after().arm.compiled();
         let is_nominal = self.is_spring(finding) && !arm.mixed_on(&finding.joints).is_empty();
         let all = self.after().parameters(finding, effect.as_deref());
-        let sure = |std: Option<f64>| match std {
+        let sure = |std: Option<f64>, is_felt: bool| match std {
             Some(_) if is_nominal => Sure::Nominal,
             Some(std) => Sure::Std(std),
-            None => Sure::Traded,
+            None if is_felt => Sure::Traded,
+            None => Sure::Unfelt,
         };
-        let all = all.into_iter();
-        all.map(|(name, value, std)| (name, value, sure(std)))
+        let all = all.into_iter().zip(&finding.parameters);
+        all.map(|((name, value, std), traced)| (name, value, sure(std, traced.is_felt)))
             .collect()
     }
 }
@@ -116,6 +130,7 @@ impl Loop {
 mod tests {
     use robot_model::trace::{Finding, Outcome};
 
+    use super::Sure;
     use crate::close_the_loop::close;
     use crate::progress::Progress;
     use crate::trace::cart::{CART, log};
@@ -138,6 +153,24 @@ mod tests {
         let std = findings[0].parameters[0].std.expect("a deviation");
         friction.value = 1.5 * std.max(friction.std);
         assert_eq!(stage.vanished(findings), Some(0));
+    }
+
+    /// No value is claimed of a shape that the logs do not show.
+    #[test]
+    fn a_shape_that_is_not_felt_has_no_interval() {
+        let closed = close("cart.robot", CART, &[log()], None, &Progress::new())
+            .unwrap_or_else(|error| panic!("{error}"));
+        let mut finding = closed.verdict.findings[0].clone();
+        let sure = |finding: &Finding| closed.parameters(finding, 0)[0].2;
+        assert!(sure(&finding).without_interval().is_none());
+        finding.parameters[0].std = None;
+        assert_eq!(sure(&finding), Sure::Traded);
+        finding.parameters[0].is_felt = false;
+        assert_eq!((sure(&finding), sure(&finding).std()), (Sure::Unfelt, None));
+        assert_eq!(
+            sure(&finding).without_interval(),
+            Some("not determined by these logs")
+        );
     }
 
     /// A change of the arm that was found later leaves less noise than a law was traced in.

@@ -80,6 +80,12 @@ impl EffectBlock {
         self.reads(|symbol| matches!(symbol, Symbol::Time))
     }
 
+    /// Whether columns read positions and shapes, and nothing else.
+    pub(super) fn reads_positions_alone(&self) -> bool {
+        let is_other = |symbol: &Symbol| !matches!(symbol, Symbol::Q(_) | Symbol::Shape(_));
+        self.states.is_empty() && self.inputs.is_empty() && !self.reads(is_other)
+    }
+
     fn reads(&self, wanted: impl Fn(&Symbol) -> bool) -> bool {
         let mut symbols = self
             .block

@@ -25,10 +25,11 @@ impl InterpretedArm {
             .map(AsRef::as_ref)
             .filter(|definition| may_be_tried(definition, model))
             .collect();
+        // What reports call by another law's name is that law with fewer parameters, which is what should be named where it is enough.
+        let is_named = |definition: &EffectDefinition| definition.kind != definition.name;
         let definitions = tried.iter().filter(|definition| {
-            !tried
-                .iter()
-                .any(|other| is_case_of(model, definition, other))
+            let mut others = tried.iter();
+            is_named(definition) || !others.any(|other| is_case_of(model, definition, other))
         });
         for definition in definitions {
             let mut seen: Vec<(BTreeSet<usize>, Vec<Entry>)> = Vec::new();
@@ -243,6 +244,10 @@ impl Candidate for InterpretedCandidate {
 
     fn is_of_time(&self) -> bool {
         self.columns.reads_time() || self.inputs().iter().any(|input| input == MOTION_PHASE)
+    }
+
+    fn is_of_position(&self) -> bool {
+        self.columns.reads_positions_alone()
     }
 
     fn joints(&self) -> &[usize] {

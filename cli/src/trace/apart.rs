@@ -6,7 +6,7 @@ use robot_model::columns::Arm;
 use robot_model::trace::{Alternative, Finding};
 use robot_model_spec::model::EffectLeaf;
 
-use super::doubt::on_joints;
+use super::doubt::{called, on_joints};
 use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::excite::have_own_columns;
@@ -38,9 +38,9 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
     for alternative in alternatives {
         writeln!(
             out,
-            "  or {} instead of {}: {:+.1} % error on folds not fitted{}",
-            on_joints(closed, &alternative.kind, &alternative.joints),
-            closed.verdict.findings[alternative.instead_of].kind,
+            "  or {} instead of {}: {:+.1} % raw error on folds not fitted{}",
+            on_joints(closed, &alternative.effect, &alternative.joints),
+            called(&closed.verdict.findings[alternative.instead_of].effect),
             alternative.worse_percent,
             in_folds(alternative.worse_folds),
         )
@@ -52,7 +52,7 @@ pub(super) fn apart(spec: &str, text: &str, closed: &Loop) -> String {
 /// How often it is worse, where the folds are the same.
 fn in_folds(worse: Option<(usize, usize)>) -> String {
     worse.map_or_else(String::new, |(worse, of)| {
-        format!("; in the band of the fit, all joints together, it has the larger error in {worse} of {of} folds")
+        format!("; in the band of the fit, all joints together, its error is the larger one in {worse} of {of} folds")
     })
 }
 
@@ -90,10 +90,10 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     for rival in by_hope {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
-        let other = on_joints(closed, &rival.kind, &rival.joints);
+        let other = on_joints(closed, &rival.effect, &rival.joints);
         let words = parted_by(closed, &finding.effect, &rival.effect);
         if let (true, Some(words)) = (is_same(&rival), words) {
-            others.push_str(&by_no_motion(&finding.kind, &other, &words));
+            others.push_str(&by_no_motion(&called(&finding.effect), &other, &words));
             continue;
         }
         let without = match rivals(closed, finding, place, rival) {
@@ -111,7 +111,7 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
                 Err(_) => Without::Spec,
             },
         };
-        others.push_str(&no_motion(&finding.kind, &other, without));
+        others.push_str(&no_motion(&called(&finding.effect), &other, without));
     }
     let joints = &closed.before.arm.compiled().model.joints;
     let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
@@ -123,8 +123,8 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
     });
     let first = first.unwrap_or_default();
     let pairs = pairs.iter().map(|(rival, both)| Pair {
-        named: closed.verdict.findings[rival.instead_of].kind.as_str(),
-        rival: on_joints(closed, &rival.kind, &rival.joints),
+        named: called(&closed.verdict.findings[rival.instead_of].effect),
+        rival: on_joints(closed, &rival.effect, &rival.joints),
         is_same: is_same(rival),
         is_worse: is_worse(rival.worse_folds),
         both,
@@ -180,7 +180,7 @@ fn not_tried(more: usize) -> String {
 
 /// What is named and what may be instead, in words and as `excite` takes them.
 struct Pair<'a> {
-    named: &'a str,
+    named: String,
     rival: String,
     /// Whether they are the same along the logs.
     is_same: bool,
@@ -307,7 +307,7 @@ mod tests {
             ]
         });
         let pair = |k: usize| Pair {
-            named: "quadratic-viscous",
+            named: "quadratic-viscous".to_owned(),
             rival: ["cubic-viscous on elbow", "stribeck on elbow"][k].to_owned(),
             is_same: k == 1,
             is_worse: false,

@@ -40,7 +40,7 @@ fn vanished(closed: &Loop) -> Option<String> {
     Some(format!(
         "the trace named {}, but identified with it, its size is below two standard deviations: the cause is something else, or the motion \
          does not separate this law from parameters of the spec",
-        on_joints(closed, &lead.kind, &lead.joints)
+        on_joints(closed, &lead.effect, &lead.joints)
     ))
 }
 
@@ -54,7 +54,7 @@ fn said_of_doubtful(closed: &Loop) -> Option<String> {
     let refusals: Vec<String> = tried.refusals.iter().map(ToString::to_string).collect();
     Some(format!(
         "{} reduces an error that it was not fitted to by {:.0} %, but is not the law ({}): something similar is missing",
-        on_joints(closed, &tried.kind, &tried.joints),
+        on_joints(closed, &tried.effect, &tried.joints),
         percent.fold(f64::NEG_INFINITY, f64::max),
         refusals.join(", ")
     ))
@@ -240,14 +240,20 @@ fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     })
 }
 
+/// An effect by its name in the language, as reports spell names.
+pub(super) fn called(effect: &str) -> String {
+    effect.replace('_', "-")
+}
+
 /// An effect and its joints, where it has some.
-pub(super) fn on_joints(closed: &Loop, kind: &str, on: &[usize]) -> String {
+pub(super) fn on_joints(closed: &Loop, effect: &str, on: &[usize]) -> String {
+    let name = called(effect);
     if on.is_empty() {
-        return kind.to_owned();
+        return name;
     }
     let names = closed.before.arm.joints();
     let names: Vec<&str> = on.iter().map(|&joint| names[joint].as_str()).collect();
-    format!("{kind} on {}", names.join(", "))
+    format!("{name} on {}", names.join(", "))
 }
 
 #[cfg(test)]

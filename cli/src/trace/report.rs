@@ -166,6 +166,9 @@ pub(super) struct ParameterReport<'a> {
     pub(super) std: Option<f64>,
     /// Ends of the interval that holds the value with 95 %.
     pub(super) interval: Option<[f64; 2]>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    without_interval: Option<&'static str>,
     #[serde(skip)]
     pub(super) sure: Sure,
 }
@@ -178,6 +181,7 @@ impl<'a> ParameterReport<'a> {
             value,
             std,
             sure,
+            without_interval: sure.without_interval(),
             interval: std.map(|std| [value - Z_95 * std, value + Z_95 * std]),
         }
     }

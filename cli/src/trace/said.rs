@@ -8,6 +8,7 @@ use crate::output::{decimals, significant};
 use crate::report::unit_and_meaning;
 use crate::units::Units;
 
+use super::doubt::called;
 use super::whereabouts::Along;
 
 /// How it ended, without a capital and a full stop.
@@ -32,7 +33,7 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         }
         Outcome::Explained => "these effects explain the residual of the declared model",
         Outcome::Unexplained if !closed.verdict.series.is_empty() => {
-            "the residual follows the motion; the listed effects are two laws of one joint's position, which together fit any curve, so none is named"
+            "the residual follows the motion; the listed effects are several laws of one joint's position, which together fit any curve, so none is named"
         }
         Outcome::Unexplained if closed.reading.is_some() => {
             "the logs seem to be misread; fix this first, nothing else was traced"
@@ -110,18 +111,34 @@ pub(super) fn parameter(
         "" | "1" => String::new(),
         unit => format!(" {unit}"),
     };
+    let value_in_unit = || format!("{}{unit}", significant(value, 4));
+    let why = sure.without_interval().unwrap_or_default();
+    let mut traced = finding.parameters.iter();
+    let has_turned = traced.any(|one| one.name == name && !one.is_possible);
+    let sign = if has_turned {
+        " (must not be negative)"
+    } else {
+        ""
+    };
     match sure {
         Sure::Std(std) if std > 0.0 => {
             let decimals = decimals(std, 2);
             let beside = beside(decimals);
-            format!("{name} = {value:.decimals$}{beside}{unit}")
+            format!("{name} = {value:.decimals$}{beside}{unit}{sign}")
         }
-        Sure::Std(_) => format!("{name} = {}{unit}", significant(value, 4)),
-        Sure::Nominal => format!(
-            "{name} = {}{unit}, as far as the spec splits motor and link correctly",
-            significant(value, 4)
-        ),
-        Sure::Traded => format!("{name} not separable from other parameters"),
+        Sure::Std(_) => format!("{name} = {}{sign}", value_in_unit()),
+        Sure::Nominal => format!("{name} = {}, {why}", value_in_unit()),
+        Sure::Traded => format!("{name} {why}"),
+        Sure::Unfelt => format!("{name} {why} ({} in the spec)", value_in_unit()),
+    }
+}
+
+/// What JSON calls a finding that its spec has by another name.
+pub(super) fn of_kind(finding: &Finding) -> String {
+    if called(&finding.effect) == finding.kind {
+        String::new()
+    } else {
+        format!(" (of the kind {})", finding.kind)
     }
 }
 

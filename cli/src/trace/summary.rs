@@ -8,7 +8,7 @@ use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 use super::apart::{apart, undistinguished};
 use super::doubt::{doubts, on_joints};
 use super::report::effect;
-use super::said::{errors_of, in_part, outcome, parameter};
+use super::said::{errors_of, in_part, of_kind, outcome, parameter};
 use super::tried::tried;
 use super::whereabouts::structure_left;
 use crate::close_the_loop::Loop;
@@ -41,8 +41,9 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             .collect();
         writeln!(
             out,
-            "  {}: {} (score {:.0}, better in {} of {} folds)",
-            on_joints(closed, &finding.kind, &finding.joints),
+            "  {}{}: {} (score {:.0}, better in {} of {} folds)",
+            on_joints(closed, &finding.effect, &finding.joints),
+            of_kind(finding),
             parameters.join(", "),
             finding.evidence.score,
             finding.evidence.folds.0,

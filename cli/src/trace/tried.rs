@@ -84,7 +84,7 @@ fn row(closed: &Loop, one: &Tried) -> [String; 6] {
     };
     [
         (one.round + 1).to_string(),
-        on_joints(closed, &one.effect.replace('_', "-"), &one.joints),
+        on_joints(closed, &one.effect, &one.joints),
         if score < MOST_SCORE {
             format!("{score:.1}")
         } else {
@@ -99,18 +99,18 @@ fn row(closed: &Loop, one: &Tried) -> [String; 6] {
 /// What became of an effect that passes every gate.
 fn passed(closed: &Loop, one: &Tried) -> &'static str {
     let verdict = &closed.verdict;
-    let is_one = |kind: &str, joints: &[usize]| (kind, joints) == (&one.kind, &one.joints);
+    let is_one = |effect: &str, joints: &[usize]| (effect, joints) == (&one.effect, &one.joints);
     // A second ripple has another period.
     let is_taken = |found: &[Finding]| {
         found.iter().any(|finding| {
             let shapes = finding.parameters.iter().filter(|found| found.shape);
             let shapes = shapes.map(|found| found.value);
-            is_one(&finding.kind, &finding.joints) && shapes.eq(one.shapes.iter().copied())
+            is_one(&finding.effect, &finding.joints) && shapes.eq(one.shapes.iter().copied())
         })
     };
     // What is without shapes passes in every round until it is taken.
     let passes_later = verdict.tried.iter().any(|other| {
-        let is_same = is_one(&other.kind, &other.joints) && other.shapes == one.shapes;
+        let is_same = is_one(&other.effect, &other.joints) && other.shapes == one.shapes;
         other.round > one.round && is_same && other.refusals.is_empty()
     });
     let mut rivals = verdict.alternatives.iter();
@@ -118,7 +118,7 @@ fn passed(closed: &Loop, one: &Tried) -> &'static str {
         "named"
     } else if !passes_later && is_taken(&verdict.leads) {
         "a lead"
-    } else if rivals.any(|rival| is_one(&rival.kind, &rival.joints)) {
+    } else if rivals.any(|rival| is_one(&rival.effect, &rival.joints)) {
         "an alternative"
     } else {
         "another effect lowers the error more"

@@ -86,6 +86,18 @@ pub trait Candidate: Columns {
         false
     }
 
+    /// Whether its torque is one of the positions of its joints and of nothing else, as a spring's and a ripple's are.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// use robot_model::columns::Candidate;
+    /// assert!(!pendulum::dry_friction().is_of_position()); // it follows the velocity
+    /// ```
+    fn is_of_position(&self) -> bool {
+        false
+    }
+
     /// What it is where it is no torque that is added; its [`Columns::unknowns`] are then its shapes, one a [`Change::probe`], and it
     /// has no [`Columns::entries`].
     ///

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::floor::Floor;
 use super::search::{Accepted, State};
 use super::structure::Structure;
+use super::sure::TOLD;
 use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdict, doubtful};
 
 /// Structure is accounted for where less than this share of it is left.
@@ -77,7 +78,10 @@ pub(super) fn verdict(
     // Nor is all well where a law that is not the right one takes much off.
     let is_doubtful = found.is_empty() && doubtful(&tried, &after).is_some();
     let is_settled = !is_beyond && !unsettled(&before, &after, state);
-    let left = is_doubtful || !is_settled;
+    // A law that only fits with a sign which it may not have stands with the others for something else.
+    let mut parameters = found.iter().flat_map(|finding| &finding.parameters);
+    let has_turned = parameters.any(|parameter| !parameter.is_possible);
+    let left = is_doubtful || !is_settled || has_turned;
     let outcome = match (left, found.is_empty()) {
         (true, _) => Outcome::Unexplained,
         (false, true) => Outcome::NothingMissing,
@@ -129,6 +133,11 @@ pub(super) fn changed(
     }
 }
 
+/// Whether a value is below zero by more than its deviations.
+fn is_below_zero(value: f64, std: Option<f64>) -> bool {
+    std.is_some_and(|std| value < -TOLD * std)
+}
+
 /// Accepted effects with their values.
 fn findings(state: &State, std: &[Vec<Option<f64>>]) -> Vec<Finding> {
     let mut places = state.placed();
@@ -146,6 +155,8 @@ fn findings(state: &State, std: &[Vec<Option<f64>>]) -> Vec<Finding> {
                 value: *value,
                 std: *std,
                 shape: false,
+                is_felt: true,
+                is_possible: !(unknown.nonnegative && is_below_zero(*value, *std)),
             }));
         }
         // The unknowns of a change are its shapes.
@@ -161,12 +172,15 @@ fn findings(state: &State, std: &[Vec<Option<f64>>]) -> Vec<Finding> {
             Some(own) => (&own.values, own.std.as_slice()),
             None => (&effect.trial.shapes, &std[effect.trial.count()..]),
         };
-        let shapes = names.iter().zip(shapes).zip(std);
-        parameters.extend(shapes.map(|((name, value), std)| FoundParameter {
+        let is_felt = |number: usize| effect.changed.is_some() || effect.trial.is_felt(number);
+        let shapes = names.iter().zip(shapes).zip(std).enumerate();
+        parameters.extend(shapes.map(|(number, ((name, value), std))| FoundParameter {
             name: last_part(name),
             value: *value,
-            std: *std,
+            std: std.filter(|_| is_felt(number)),
             shape: true,
+            is_felt: is_felt(number),
+            is_possible: true,
         }));
         (!effect.is_small).then(|| Finding {
             kind: candidate.kind().to_owned(),
@@ -229,6 +243,13 @@ fn is_another_law(before: &Structure, after: &Structure, stays: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_is_below_zero_by_more_than_its_deviation() {
+        assert!(is_below_zero(-3.2, Some(0.5)));
+        assert!(!is_below_zero(-0.9, Some(0.5)) && !is_below_zero(3.2, Some(0.5)));
+        assert!(!is_below_zero(-3.2, None));
+    }
 
     #[test]
     fn a_law_that_leaves_structure_and_most_of_the_error_is_another_one() {

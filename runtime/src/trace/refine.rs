@@ -9,8 +9,14 @@ use super::rows::Rows;
 use super::score::Present;
 use super::trial::{Presence, Trial, presence};
 
-/// How much less a candidate may explain with a shape that hardly changes anything.
+/// How much less a candidate may explain with a shape that hardly changes anything: a share of what it explains, and one of what it leaves. A limit
+/// that is far exceeded explains nearly all wherever it is, and what it leaves tells where.
 const HARDLY: f64 = 1e-3;
+const HARDLY_OF_REST: f64 = 0.05;
+
+/// A law with a shape at zero is a simpler one, and is taken where it leaves more by less than this share: about what a parameter takes off noise
+/// with a hundred independent samples.
+const SIMPLER: f64 = 0.01;
 
 /// A shape with so few values on its grid is begun at each of them.
 const COARSE: usize = 3;
@@ -20,26 +26,55 @@ const STEPS: usize = 8;
 const HALVES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 const LEAST_GAIN: f64 = 1e-5;
 
+/// How much a candidate explains of the residual beside the model.
+struct Explained<'a> {
+    present: &'a Present<'a>,
+    /// The power of the residual of its joints, in the same units.
+    power: f64,
+}
+
+impl<'a> Explained<'a> {
+    fn new(present: &'a Present<'a>, trial: &Trial) -> Self {
+        let joints = trial.touched().into_iter();
+        Self {
+            present,
+            power: joints.map(|joint| present.power(joint)).sum(),
+        }
+    }
+
+    fn drop(&self, trial: &Trial) -> f64 {
+        let projected = trial.project(self.present);
+        projected.map_or(0.0, |p| p.admissible_drop(trial.candidate))
+    }
+
+    /// What is hardly less than what a candidate explains.
+    fn hardly_less(&self, trial: &Trial) -> f64 {
+        hardly_less(self.drop(trial), self.power)
+    }
+}
+
+fn hardly_less(drop: f64, power: f64) -> f64 {
+    drop - (HARDLY * drop).min(HARDLY_OF_REST * (power - drop).max(0.0))
+}
+
 impl Trial<'_> {
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; `finely` all of them
     /// together from there on, and from other values of shapes with a coarse grid, too.
     pub(super) fn refined(&self, present: &Present, rows: Rows, finely: bool) -> Self {
-        let drop = |trial: &Self| {
-            let projected = trial.project(present);
-            projected.map_or(0.0, |p| p.admissible_drop(trial.candidate))
-        };
-        let mut best = self.one_by_one(&drop, rows);
+        let explained = Explained::new(present, self);
+        let mut best = self.one_by_one(&explained, rows);
         if finely && !best.shapes.is_empty() {
-            best = best.together(present, &drop, rows);
+            best = best.together(&explained, rows);
             for start in self.other_starts(rows) {
-                let start = start.one_by_one(&drop, rows);
-                let other = start.together(present, &drop, rows);
-                if drop(&other) > drop(&best) {
+                let start = start.one_by_one(&explained, rows);
+                let other = start.together(&explained, rows);
+                if explained.drop(&other) > explained.drop(&best) {
                     best = other;
                 }
             }
         }
-        let mut best = best.away_from_ends(&drop, rows);
+        let mut best = best.simpler(&explained, rows);
+        best = best.away_from_ends(&explained, rows);
         let presence = presence(best.candidate, &best.shapes, rows.logs);
         // A law with one shape has one end at most, and may be nothing at the first sample alone, as what drifts from there on is.
         if best.shapes.len() > 1 || presence == Presence::ComesAndGoes {
@@ -48,28 +83,24 @@ impl Trial<'_> {
         if best.shapes.len() > 1 {
             let numbers = 0..best.shapes.len();
             best.is_felt = numbers
-                .map(|number| best.feels(number, &drop, rows))
+                .map(|number| best.feels(number, &explained, rows))
                 .collect();
         }
         best
     }
 
     /// Moves each shape between its neighbors on the grid, one after the other.
-    fn one_by_one(&self, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> Self {
+    fn one_by_one(&self, explained: &Explained, rows: Rows) -> Self {
         let mut best = self.clone();
         for number in 0..self.shapes.len() {
             let grid = &self.candidate.shapes()[number].grid;
-            let at = |value: f64| {
-                let mut shapes = best.shapes.clone();
-                shapes[number] = value;
-                Self::new(self.candidate, shapes, rows)
-            };
+            let at = |value: f64| best.with(number, value, rows);
             let (low, high) = neighbors(grid, self.shapes[number]);
             let Ok(value) = golden(low, high, &mut |value| {
-                Ok::<_, Infallible>(-drop(&at(value)))
+                Ok::<_, Infallible>(-explained.drop(&at(value)))
             });
             let refined = at(value);
-            if drop(&refined) > drop(&best) {
+            if explained.drop(&refined) > explained.drop(&best) {
                 best = refined;
             }
         }
@@ -84,32 +115,28 @@ impl Trial<'_> {
         let others = coarse.flat_map(|number| {
             let other = move |value: &&f64| (*value - self.shapes[number]).abs() > 0.0;
             let values = shapes[number].grid.iter().filter(other);
-            values.map(move |&value| {
-                let mut shapes = self.shapes.clone();
-                shapes[number] = value;
-                Self::new(self.candidate, shapes, rows)
-            })
+            values.map(move |&value| self.with(number, value, rows))
         });
         others.collect()
     }
 
     /// Moves all shapes along the slopes of the torque (Gauss and Newton) as long as that explains more: width and sharpness of a loop are
     /// not found one after the other.
-    fn together(mut self, present: &Present, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> Self {
-        let mut explained = drop(&self);
+    fn together(mut self, explained: &Explained, rows: Rows) -> Self {
+        let mut most = explained.drop(&self);
         for _ in 0..STEPS {
-            let Some(step) = self.step(present, rows) else {
+            let Some(step) = self.step(explained.present, rows) else {
                 break;
             };
             let shares = HALVES.iter().map(|share| {
                 let next = self.moved(&step, *share, rows);
-                (drop(&next), next)
+                (explained.drop(&next), next)
             });
-            let least = (1.0 + LEAST_GAIN) * explained;
+            let least = (1.0 + LEAST_GAIN) * most;
             let Some((more, next)) = shares.into_iter().find(|(more, _)| *more > least) else {
                 break;
             };
-            (explained, self) = (more, next);
+            (most, self) = (more, next);
         }
         self
     }
@@ -136,7 +163,7 @@ impl Trial<'_> {
     }
 
     /// Whether the candidate explains less with a shape that is one step of its grid lower or higher.
-    fn feels(&self, number: usize, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> bool {
+    fn feels(&self, number: usize, explained: &Explained, rows: Rows) -> bool {
         let grid = &self.candidate.shapes()[number].grid;
         let (first, last, value) = (grid[0], grid[grid.len() - 1], self.shapes[number]);
         let (low, high) = neighbors(grid, value);
@@ -145,18 +172,44 @@ impl Trial<'_> {
         } else {
             [value - (high - low), value + (high - low)]
         };
-        let least = (1.0 - HARDLY) * drop(self);
+        let least = explained.hardly_less(self);
         steps.into_iter().all(|step| {
-            let mut shapes = self.shapes.clone();
-            shapes[number] = step.clamp(first, last);
-            drop(&Self::new(self.candidate, shapes, rows)) < least
+            let stepped = self.with(number, step.clamp(first, last), rows);
+            explained.drop(&stepped) < least
         })
     }
 
-    /// A shape of which hardly anything changes near the end of its range is at no end: it takes the next value of its grid.
-    fn away_from_ends(mut self, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> Self {
+    /// With a shape at zero, where its range begins there and the law explains next to nothing less: on a flat ridge it stays anywhere. When a law
+    /// of time sets in is no such shape.
+    fn simpler(mut self, explained: &Explained, rows: Rows) -> Self {
+        if self.candidate.is_of_time() {
+            return self;
+        }
         for number in 0..self.shapes.len() {
-            if self.is_within(number) {
+            if self.candidate.shapes()[number].grid[0] != 0.0 {
+                continue;
+            }
+            let zero = self.with(number, 0.0, rows);
+            let [most, of_zero] = [&self, &zero].map(|trial| explained.drop(trial));
+            if most - of_zero < SIMPLER * (explained.power - most) {
+                self = zero;
+            }
+        }
+        self
+    }
+
+    /// With one shape at another value.
+    fn with(&self, number: usize, value: f64, rows: Rows) -> Self {
+        let mut shapes = self.shapes.clone();
+        shapes[number] = value;
+        Self::new(self.candidate, shapes, rows)
+    }
+
+    /// A shape of which hardly anything changes near the end of its range is at no end: it takes the next value of its grid.
+    fn away_from_ends(mut self, explained: &Explained, rows: Rows) -> Self {
+        for number in 0..self.shapes.len() {
+            let is_simpler = self.is_at_zero(number) && !self.candidate.is_of_time();
+            if self.is_within(number) || is_simpler {
                 continue;
             }
             let grid = &self.candidate.shapes()[number].grid;
@@ -165,13 +218,26 @@ impl Trial<'_> {
             } else {
                 grid[1]
             };
-            let mut shapes = self.shapes.clone();
-            shapes[number] = inner;
-            let inside = Self::new(self.candidate, shapes, rows);
-            if drop(&inside) >= (1.0 - HARDLY) * drop(&self) {
+            let inside = self.with(number, inner, rows);
+            if explained.drop(&inside) >= explained.hardly_less(&self) {
                 self = inside;
             }
         }
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hardly_less;
+
+    /// What is a thousandth of what is explained may be most of what is left.
+    #[test]
+    fn a_shape_is_felt_in_what_is_left_too() {
+        let less = |drop: f64| drop - hardly_less(drop, 1000.0);
+        assert!((less(500.0) - 0.5).abs() < 1e-9);
+        assert!((less(999.9) - 0.005).abs() < 1e-9);
+        // All of it: rounding.
+        assert!(less(1000.1).abs() < 1e-9);
     }
 }

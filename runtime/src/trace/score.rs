@@ -56,6 +56,12 @@ impl<'a> Present<'a> {
         }
     }
 
+    /// The weighted sum of squares of a joint's residual.
+    pub(super) fn power(&self, joint: usize) -> f64 {
+        let residual = &self.residuals[joint];
+        self.sigma[joint].powi(-2) * dot(residual, residual)
+    }
+
     /// Projects `count` columns; `None` where the model's columns already span them.
     pub(super) fn project(&self, entries: &[Entry], count: usize) -> Option<Projected> {
         let unknowns = self.stack.unknowns.len();

@@ -9,7 +9,7 @@ use super::verdict::Evidence;
 use super::wander;
 
 /// Deviations that a parameter is told by.
-const TOLD: f64 = 2.0;
+pub(super) const TOLD: f64 = 2.0;
 
 /// The same of a change of the arm, which moves all of the equations, and their noise with them.
 const TOLD_OF_CHANGE: f64 = 3.0;

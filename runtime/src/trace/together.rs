@@ -16,23 +16,27 @@ const LEFT: f64 = 0.01;
 /// A law has at least this share of its power about its mean, or it is a constant.
 const LEAST_CHANGE: f64 = 1e-6;
 
+/// So many smooth curves of a joint's position are a series, or so many laws of it, smooth or not: a wave for every bump.
+const CURVES: usize = 2;
+const LAWS: usize = 3;
+
 impl Search<'_> {
-    /// Joints on which two findings are smooth curves of the joint's position, each of them nothing else: two springs, or one and a wave of few
-    /// periods, are terms of a series, and fit whatever curve the joint has.
+    /// Joints on which some findings are laws of the joint's position, each of them nothing else: two springs, a spring and a wave of few periods, or
+    /// three waves are terms of a series, and fit whatever curve the joint has.
     pub(super) fn with_a_series(&self, state: &State) -> Vec<usize> {
-        let mut curves = vec![0; self.arm.dof()];
+        let (mut curves, mut laws) = (vec![0; self.arm.dof()], vec![0; self.arm.dof()]);
         for (effect, place) in state.placed() {
             let gain = &state.solution.estimate[place];
             if let [joint] = effect.trial.touched()[..]
                 && !effect.is_small
-                && self.is_of_position(state, (effect, gain), joint)
             {
-                curves[joint] += 1;
+                let is_curve = self.is_of_position(state, (effect, gain), joint);
+                curves[joint] += usize::from(is_curve);
+                laws[joint] += usize::from(is_curve || effect.trial.candidate.is_of_position());
             }
         }
-        let joints = curves.iter().enumerate();
-        let several = joints.filter(|(_, count)| **count > 1);
-        several.map(|(joint, _)| joint).collect()
+        let is_series = |joint: &usize| curves[*joint] >= CURVES || laws[*joint] >= LAWS;
+        (0..curves.len()).filter(is_series).collect()
     }
 
     /// Whether the torque of an effect is a smooth curve of a joint's position, and no constant. Along a motion of one wave the size of the

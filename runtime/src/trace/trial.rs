@@ -151,7 +151,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a shape changes what it explains, as far as that was asked.
-    fn is_felt(&self, number: usize) -> bool {
+    pub(super) fn is_felt(&self, number: usize) -> bool {
         self.is_felt.get(number).copied().unwrap_or(true)
     }
 
@@ -178,7 +178,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a shape stands at zero, where its range begins.
-    fn is_at_zero(&self, number: usize) -> bool {
+    pub(super) fn is_at_zero(&self, number: usize) -> bool {
         let grid = &self.candidate.shapes()[number].grid;
         let edge = END_SHARE * (grid[grid.len() - 1] - grid[0]);
         grid[0] == 0.0 && self.shapes[number] < edge

@@ -52,10 +52,15 @@ pub struct FoundParameter {
     pub name: String,
     /// Estimate, SI; where others do the same, that with these at zero.
     pub value: f64,
-    /// Standard deviation beside all other unknowns, shapes among them; none where another unknown or a sum of others does the same.
+    /// Standard deviation beside all other unknowns, shapes among them; none where another unknown or a sum of others does the same, or where the
+    /// logs do not show it.
     pub std: Option<f64>,
     /// Whether it is a shape parameter.
     pub shape: bool,
+    /// Whether the logs show it: of a shape that is not felt other values fit as well.
+    pub is_felt: bool,
+    /// Whether it has a sign that it may have: beside laws that were found later another one may have turned. A finding has no other.
+    pub is_possible: bool,
 }
 
 /// An effect that the spec does not declare.
@@ -236,8 +241,8 @@ pub struct Verdict {
     pub noise_floor: Vec<Floor>,
     /// Speeds below which dry friction does not act in full with the findings, one a joint, rad/s or m/s: see [`Log::with_turn_speeds`](crate::log::Log::with_turn_speeds).
     pub turn_speeds: Vec<f64>,
-    /// Joints, from 0, on which two leads are smooth curves of the joint's position and nothing else: terms of a series, which fits whatever
-    /// curve the joint has, so that neither is named.
+    /// Joints, from 0, on which two leads are smooth curves of the joint's position and nothing else, or three are laws of it: terms of a series,
+    /// which fits whatever curve the joint has, so that none is named.
     pub series: Vec<usize>,
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
     /// [`Trace::since`](super::Trace::since).

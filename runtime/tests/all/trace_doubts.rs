@@ -89,11 +89,12 @@ fn of_position() -> [Law; 3] {
         waves("wave", (8..30).map(|k| 0.25 * f64::from(k)).collect()),
         waves("ripple", (35..46).map(f64::from).collect()),
     ]
+    .map(Law::of_position)
 }
 
-/// A spring and a wave fit many curves of a position; a spring and a ripple do not.
+/// A spring and a wave fit many curves of a position; a spring and a ripple do not, but with another ripple they do.
 #[test]
-fn two_curves_of_one_position_are_terms_of_a_series() {
+fn curves_of_one_position_are_terms_of_a_series() {
     let traced = |extra: fn(usize, [f64; 2], [f64; 2]) -> f64| {
         let plant = Plant {
             extra,
@@ -130,6 +131,20 @@ fn two_curves_of_one_position_are_terms_of_a_series() {
     found.sort_unstable();
     assert_eq!(found, [("ripple", 1), ("spring", 1)], "{ripple:#?}");
     assert!(ripple.series.is_empty());
+    // Waves for every bump.
+    let ripples = traced(|j, q, _| {
+        if j == 0 {
+            3.0 * q[0] * q[0] + 0.4 * (38.0 * q[0]).sin() + 0.5 * (44.0 * q[0]).sin()
+        } else {
+            0.0
+        }
+    });
+    assert_eq!(
+        (ripples.series.as_slice(), ripples.leads.len()),
+        (&[0][..], 3),
+        "{ripples:#?}"
+    );
+    assert_eq!(ripples.outcome, Outcome::Unexplained);
 }
 
 /// A trace that goes on from one in which an effect changed the arm has so many fewer to name.

@@ -5,7 +5,7 @@ use robot_model::trace::Outcome;
 use super::super::apart::{apart, undistinguished};
 use super::super::doubt::{doubts, on_joints};
 use super::super::report::effect;
-use super::super::said::{fall, in_part, outcome, parameter};
+use super::super::said::{fall, in_part, of_kind, outcome, parameter};
 use super::super::whereabouts::structure_left;
 use crate::close_the_loop::Loop;
 use crate::output::sentence;
@@ -51,8 +51,9 @@ pub(super) fn verdict(page: &mut Page, closed: &Loop) {
             ""
         };
         format!(
-            "{lead}{}: {}",
-            on_joints(closed, &finding.kind, &finding.joints),
+            "{lead}{}{}: {}",
+            on_joints(closed, &finding.effect, &finding.joints),
+            of_kind(finding),
             values.collect::<Vec<_>>().join(", ")
         )
     }));
@@ -68,7 +69,7 @@ fn explained(closed: &Loop) -> String {
     let verdict = &closed.verdict;
     let faults = closed.faults.iter().map(|fault| fault.kind.to_owned());
     let effects = verdict.findings.iter();
-    let effects = effects.map(|finding| on_joints(closed, &finding.kind, &finding.joints));
+    let effects = effects.map(|finding| on_joints(closed, &finding.effect, &finding.joints));
     let names: Vec<String> = faults.chain(effects).collect();
     let by = if names.len() > MOST_NAMED {
         format!("{} effects", names.len())

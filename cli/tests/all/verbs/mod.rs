@@ -9,6 +9,7 @@ mod audit_seeds;
 mod bags;
 mod bending;
 mod bodies;
+mod bristles;
 mod c;
 mod calibrate;
 mod changes;

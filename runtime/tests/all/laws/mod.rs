@@ -13,6 +13,7 @@ pub struct Law {
     unknowns: [Unknown; 1],
     shapes: Vec<Shape>,
     torque: fn(f64, f64, f64) -> f64,
+    is_of_position: bool,
 }
 
 impl Law {
@@ -38,6 +39,15 @@ impl Law {
                 })
                 .collect(),
             torque,
+            is_of_position: false,
+        }
+    }
+
+    /// The same, known as one of the position alone.
+    pub fn of_position(self) -> Self {
+        Self {
+            is_of_position: true,
+            ..self
         }
     }
 }
@@ -76,6 +86,10 @@ impl Candidate for Law {
 
     fn joints(&self) -> &[usize] {
         &self.joint
+    }
+
+    fn is_of_position(&self) -> bool {
+        self.is_of_position
     }
 }
 
