@@ -3,7 +3,7 @@
 use robot_model::Inertial;
 use robot_model_codegen::Compiled;
 
-use super::{Check, Finding, Quantity};
+use super::{Check, Finding, MISSED, Quantity};
 use crate::interpreted::{Moved, Widths, payloads, possible_arms};
 use crate::output::{counted, rounded};
 use crate::parameters::Values;
@@ -17,9 +17,7 @@ const ROUNDING: f64 = 1e-9;
 /// How many of them are shown.
 const SHOWN: usize = 8;
 
-/// Deviations, at most, by which base parameters of an arm that can be miss the values: those that a file has, and those that stand for
-/// them where nobody says any.
-const MISSED: f64 = 2.0;
+/// The same of deviations that stand for those of a file where nobody says any, by which base parameters of an arm that can be miss the values.
 const MISSED_SHARES: f64 = 3.0;
 
 /// Deviations below which a value is missed by the search alone.

@@ -8,6 +8,7 @@ mod friction;
 mod inertia;
 mod jumps;
 mod memory;
+mod signs;
 mod workspace;
 
 use std::collections::BTreeMap;
@@ -16,10 +17,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use robot_model_codegen::Compiled;
-use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
-use crate::output::{self, Content, Files, Record, counted, names, rounded};
+use crate::output::{self, Content, Files, Record, counted, names};
 use crate::parameters::{self, Beside, Values};
 use crate::{Error, json, spec};
 
@@ -69,7 +69,7 @@ pub struct Check {
     pub passed: Option<bool>,
     /// What was looked at.
     pub scope: String,
-    /// What is wrong; of `rank` what cannot be known, of `bodies` that passed what deviations of the file leave open.
+    /// What is wrong; of `rank` what cannot be known, of `bodies` and `signs` that passed what deviations of the file leave open.
     pub findings: Vec<String>,
     /// The numbers that these sentences say, unrounded.
     pub quantities: Vec<Quantity>,
@@ -78,7 +78,7 @@ pub struct Check {
 /// A number of a [`Check`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Quantity {
-    /// `mass`, `least_second_moment`, `nearest`, `deviations` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
+    /// `mass`, `least_second_moment`, `nearest`, `deviations` (bodies); `value`, `deviations` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
     /// (friction); `jump`, `at` (jumps); `work` (memory); `friction`, `at_rest`, `largest_torque` (drives); `base_parameters`, `parameters`
     /// (rank); `value`, `other`, `apart`, `std` (against); `factor`, `needed`, `independent`, `base_parameters` (base).
     pub what: &'static str,
@@ -107,6 +107,9 @@ impl Quantity {
         }
     }
 }
+
+/// Deviations that a value of a file may miss what is possible by: chance, not a value that is wrong.
+const MISSED: f64 = 2.0;
 
 /// A sentence and the numbers in it.
 type Finding = (String, Vec<Quantity>);
@@ -156,7 +159,7 @@ pub(crate) fn inertia_of(compiled: &Compiled, beta: &[f64], shapes: &[f64]) -> O
 fn checks(compiled: &Compiled, values: &Values, deviations: &[Option<f64>]) -> Vec<Check> {
     let all = [
         bodies::check(compiled, values, deviations),
-        Some(signs(compiled, values)),
+        Some(signs::check(compiled, values, deviations)),
         Some(inertia::check(compiled, &values.parameters, &values.shapes)),
         Some(friction::check(compiled, values)),
         Some(jumps::check(compiled, values)),
@@ -292,39 +295,6 @@ fn values_of(compiled: &Compiled, file: Option<&Path>) -> Result<(Values, String
 /// Base parameters that a file gives.
 fn sums(path: &Path) -> Result<Sums, Error> {
     json::typed(path, json::read(path)?, base::FORM)
-}
-
-/// Parameters that the language says are not negative.
-fn signs(compiled: &Compiled, values: &Values) -> Check {
-    let model = &compiled.model;
-    // Those of links are of bodies.
-    let all: Vec<usize> = (0..compiled.standard.len())
-        .filter(|&k| matches!(compiled.standard[k].owner, Owner::Effect { .. }))
-        .filter(|&k| model.is_nonnegative(&compiled.standard[k]))
-        .collect();
-    let value = |k: usize| {
-        if let Some(standard) = &values.standard {
-            return standard[k];
-        }
-        // A base parameter that is the parameter itself.
-        let combinations = compiled.base.combinations.iter();
-        let place = combinations
-            .zip(&compiled.base.kept)
-            .position(|(combination, &kept)| kept == k && combination.len() == 1);
-        place.map(|place| values.beta[place])
-    };
-    let findings = all.iter().filter_map(|&k| {
-        let value = value(k).filter(|value| *value < 0.0)?;
-        let name = &compiled.standard[k].name;
-        let said = format!("`{name}` is {}", rounded(value));
-        Some((said, vec![Quantity::of("value", name, value, "")]))
-    });
-    let findings = findings.collect();
-    let scope = format!(
-        "{} that cannot be negative: friction, rotors",
-        counted(all.len(), "parameter")
-    );
-    Check::new("signs", scope, findings)
 }
 
 /// What the torques can tell; nothing here is at fault.

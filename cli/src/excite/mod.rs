@@ -239,22 +239,24 @@ fn search(
     let next = Cell::new(LONG);
     let watch = |search: Search| {
         let took = started.elapsed();
-        if told.replace(search.start) != search.start {
+        let is_new = told.replace(search.start) != search.start;
+        // A start that ends before its last step leaves less than that.
+        let starts = search.start.saturating_sub(1) as f64 + search.part;
+        let behind = starts / request.starts as f64;
+        let start = format!("start {} of {}", search.start, request.starts);
+        if is_new || progress.is_live() {
             let best = search.best.filter(|best| best.is_finite());
             let best = best.map_or_else(String::new, |best| {
                 format!(", best value of the criterion so far {best:.3}")
             });
-            let what = format!("start {} of {}{best}", search.start, request.starts);
-            let behind = search.start.saturating_sub(1) as f64;
-            progress.part(&what, behind / request.starts as f64);
-        } else if !progress.is_live() && took >= next.get() {
+            progress.part(&format!("{start}{best}"), behind);
+        } else if took >= next.get() {
             next.set(took * 2);
-            progress.step(&format!(
-                "start {} of {} goes on, {} s so far; Ctrl-C or `--budget S` ends the search with the best motion so far",
-                search.start,
-                request.starts,
+            let what = format!(
+                "{start} goes on, {} s so far; Ctrl-C or `--budget S` ends the search with the best motion so far",
                 took.as_secs()
-            ));
+            );
+            progress.part(&what, behind);
         }
         !interrupted.is_pressed() && budget.is_none_or(|budget| took < budget)
     };

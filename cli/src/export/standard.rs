@@ -145,7 +145,8 @@ fn search(
     }
     let mut found = nearest?;
     if !is_exact {
-        let plain = plainest(compiled, &arms, (&values.beta, widths), &found);
+        let masses = held(compiled, &arms, is_silent);
+        let plain = plainest(compiled, &arms, masses, (&values.beta, widths), &found);
         found = plain.unwrap_or(found);
     }
     let others = arms.links.iter().filter_map(|link| {
@@ -157,11 +158,13 @@ fn search(
     Some((found, others))
 }
 
-/// Of the arms that are hardly farther from base parameters than the nearest one, that which is nearest to the nominal values. The nearest of
-/// all has bodies at the edge of what is possible: for a thousandth of a deviation it gives a link another mass, and takes a rotor away.
+/// Of the arms that are hardly farther from base parameters than the nearest one, that which is nearest to the nominal values, with as many of
+/// these masses as they are given as such an arm can have. The nearest of all has bodies at the edge of what is possible: for a thousandth of a
+/// deviation it gives a link another mass, and takes a rotor away.
 fn plainest(
     compiled: &Compiled,
     arms: &PossibleArms,
+    masses: Vec<Held>,
     (beta, widths): (&[f64], &[f64]),
     nearest: &[f64],
 ) -> Option<Vec<f64>> {
@@ -172,11 +175,23 @@ fn plainest(
         away.fold(0.0, f64::max)
     };
     let most = FARTHER * farthest(nearest) + FARTHER_BY;
-    PLAIN_WIDTHS.iter().find_map(|width| {
-        let widths: Vec<f64> = widths.iter().map(|one| one * width).collect();
-        let (_, standard) = arms.nearest_to(beta, &widths)?;
-        (farthest(&standard) <= most).then_some(standard)
-    })
+    let with = |held: &[Held]| {
+        let (weighed, without) = weighed(compiled, (arms, held), beta);
+        PLAIN_WIDTHS.iter().find_map(|width| {
+            let widths: Vec<f64> = widths.iter().map(|one| one * width).collect();
+            let (_, standard) = weighed.nearest_to(&without, &widths)?;
+            (farthest(&standard) <= most).then_some(standard)
+        })
+    };
+    let (mut plainest, mut kept) = (with(&[]), Vec::new());
+    for mass in masses {
+        kept.push(mass);
+        match with(&kept) {
+            Some(standard) => plainest = Some(standard),
+            None => drop(kept.pop()),
+        }
+    }
+    plainest
 }
 
 /// What a link keeps of its given values: some of the mass and the first moments, by their places among its ten.

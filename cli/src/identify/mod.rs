@@ -29,7 +29,7 @@ pub(crate) mod report;
 mod results;
 mod steps;
 pub(crate) mod table;
-mod twice;
+pub(crate) mod twice;
 mod unequal;
 mod untold;
 

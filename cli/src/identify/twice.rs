@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const CHUNK: usize = 1 << 16;
 
 /// Sentences about logs that are fitted twice, and about one that is fitted and judged.
-pub(super) fn doubts(fitted: &[PathBuf], validate: Option<&Path>) -> Vec<String> {
+pub(crate) fn doubts(fitted: &[PathBuf], validate: Option<&Path>) -> Vec<String> {
     let mut found = Vec::new();
     for (k, path) in fitted.iter().enumerate() {
         if let Some(first) = fitted[..k].iter().find(|first| is_same(first, path)) {

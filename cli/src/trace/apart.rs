@@ -1,19 +1,23 @@
 //! What the logs leave open: effects that would do as well as those that are named, and the experiment that tells them apart.
 
+mod rivals;
+
 use std::fmt::Write;
 
-use robot_model::columns::Arm;
-use robot_model::trace::{Alternative, Finding};
-use robot_model_spec::model::EffectLeaf;
+use robot_model::trace::Alternative;
 
 use super::doubt::{called, on_joints};
-use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::excite::have_own_columns;
 use crate::output::quoted;
 
+use rivals::{has_memory, rivals};
+
 /// Laws whose errors differ by less, percent, do the same along the logs.
 const SAME_PERCENT: f64 = 0.05;
+
+/// How long the search for a motion takes at most where states have to be followed, s: the best one until then is written.
+const BUDGET_S: u32 = 600;
 
 /// Motions of no more alternatives than this are told: the spec is compiled with each.
 const MOST_MOTIONS: usize = 3;
@@ -127,6 +131,8 @@ fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
         rival: on_joints(closed, &rival.effect, &rival.joints),
         is_same: is_same(rival),
         is_worse: is_worse(rival.worse_folds),
+        has_memory: has_memory(closed, &closed.verdict.findings[rival.instead_of].effect)
+            || has_memory(closed, &rival.effect),
         both,
     });
     if more > 0 {
@@ -186,6 +192,8 @@ struct Pair<'a> {
     is_same: bool,
     /// Whether the rival has the larger error in every fold.
     is_worse: bool,
+    /// Whether one of them has internal states, which a search follows along every motion.
+    has_memory: bool,
     both: &'a [String; 2],
 }
 
@@ -208,90 +216,28 @@ fn commands(spec: &str, first: &str, is_one: bool, pairs: &[Pair]) -> String {
         } else {
             format!("these logs cannot decide; design the motion that best {tells}")
         };
-        let command = experiment(spec, pair.both, number);
+        let command = experiment(spec, pair, number);
         writeln!(out, "  {what}{first}: {command}").expect(PUT);
     }
     out
 }
 
 /// The command, whose motion has a file of its own.
-fn experiment(spec: &str, [own, other]: &[String; 2], number: usize) -> String {
+fn experiment(spec: &str, pair: &Pair, number: usize) -> String {
     let number = match number {
         0 => String::new(),
         number => (number + 1).to_string(),
     };
+    let [own, other] = pair.both;
+    let budget = if pair.has_memory {
+        format!(" --budget {BUDGET_S}")
+    } else {
+        String::new()
+    };
     format!(
-        "robot-model excite {} --separate '{own}' --from '{other}' --out next{number}.csv",
+        "robot-model excite {} --separate '{own}' --from '{other}'{budget} --out next{number}.csv",
         quoted(spec)
     )
-}
-
-/// What is told and what may be instead; none where an effect follows from more than the motion, or is no torque that is added.
-fn rivals(
-    closed: &Loop,
-    finding: &Finding,
-    place: usize,
-    rival: &Alternative,
-) -> Option<[String; 2]> {
-    let (own, other) = (
-        of_motion(closed, &finding.effect)?,
-        of_motion(closed, &rival.effect)?,
-    );
-    let values = effect(finding, closed, place).parameters;
-    let said = |names: &[String]| -> Vec<String> {
-        let found = names
-            .iter()
-            .filter_map(|name| values.iter().find(|value| value.name == name));
-        found
-            .map(|value| format!("{} = {:.3e}", value.name, value.value))
-            .collect()
-    };
-    let shapes = match said(&own.shapes) {
-        shapes if shapes.is_empty() => String::new(),
-        shapes => format!("({})", shapes.join(", ")),
-    };
-    Some([
-        format!(
-            "{}{shapes} on {}: {}",
-            own.name,
-            joints(closed, &finding.joints),
-            said(&own.linear).join(", ")
-        ),
-        format!("{} on {}", other.name, joints(closed, &rival.joints)),
-    ])
-}
-
-struct OfMotion {
-    name: String,
-    linear: Vec<String>,
-    shapes: Vec<String>,
-}
-
-/// An effect of the library or of the spec whose torque is one of the motion.
-fn of_motion(closed: &Loop, effect: &str) -> Option<OfMotion> {
-    let definitions = &closed.before.arm.compiled().model.definitions;
-    let effect = definitions.iter().find(|one| one.name == effect)?;
-    let is_more = |leaf: &EffectLeaf| matches!(leaf, EffectLeaf::Time | EffectLeaf::Input(_));
-    let rates = effect
-        .states
-        .iter()
-        .map(|state| &effect.bindings[state.rate].value);
-    let mut equations = effect.equations().chain(rates);
-    let is_of_motion = !equations.any(|value| effect.reads(value, &is_more));
-    (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
-        name: effect.name.clone(),
-        linear: effect.linear.iter().map(|p| p.name.clone()).collect(),
-        shapes: effect.shapes.iter().map(|p| p.name.clone()).collect(),
-    })
-}
-
-fn joints(closed: &Loop, joints: &[usize]) -> String {
-    let names = closed.before.arm.joints();
-    let joints: Vec<&str> = joints.iter().map(|&joint| names[joint].as_str()).collect();
-    match joints.as_slice() {
-        [joint] => (*joint).to_owned(),
-        several => format!("({})", several.join(", ")),
-    }
 }
 
 #[cfg(test)]
@@ -311,6 +257,7 @@ mod tests {
             rival: ["cubic-viscous on elbow", "stribeck on elbow"][k].to_owned(),
             is_same: k == 1,
             is_worse: false,
+            has_memory: false,
             both: &both[k],
         };
         assert_eq!(
@@ -322,6 +269,12 @@ mod tests {
         );
         let one = commands("arm.robot", "", true, &[pair(0)]);
         assert!(one.contains("the motion that best separates them"), "{one}");
+        let bristles = Pair {
+            has_memory: true,
+            ..pair(0)
+        };
+        let told = commands("arm.robot", "", true, &[bristles]);
+        assert!(told.ends_with(" --budget 600 --out next.csv\n"), "{told}");
         let worse = Pair {
             is_worse: true,
             ..pair(0)

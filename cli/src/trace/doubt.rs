@@ -111,9 +111,10 @@ fn without_motor(closed: &Loop) -> Option<String> {
                 Expr::Leaf(EffectLeaf::Signal(Signal::Acceleration, _))
             )
         };
+        // The coupling of a wrist is one of several joints, whatever else moves them.
         let mut own = model.effects.iter();
         own.any(|effect| {
-            effect.joints.contains(&joint)
+            effect.joints == [joint]
                 && effect
                     .definition
                     .torque_equations()

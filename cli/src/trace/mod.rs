@@ -23,6 +23,7 @@ use robot_model::log::Log;
 
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
+use crate::identify::twice;
 use crate::log_settings::LogSettings;
 use crate::misplaced::robot_of;
 use crate::output::table::PREDICTION;
@@ -106,6 +107,7 @@ impl TraceArguments {
         let read = |path: &Path| read_mended(path, &model, settings, &progress);
         let validate = self.validate.as_deref().map(read).transpose()?;
         let validate = validate.map(|mended| mended.log);
+        progress.notes(twice::doubts(&self.logs, self.validate.as_deref()));
         let read = progress.noted();
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;

@@ -108,7 +108,8 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
             (Along::Nothing, true) => "is no noise",
             (Along::Time, false) => "wanders in time in part",
             (Along::Nothing, false) => "is no noise in part",
-            (Along::Motion | Along::Step, false) => "follows the motion in part",
+            (Along::Step, false) => "comes in part from a level that changes",
+            (Along::Motion, false) => "follows the motion in part",
         };
         let follows = if left.is_material() {
             format!("{share:.0} % of the error's power on {name} {follows}")

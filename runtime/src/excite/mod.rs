@@ -48,6 +48,12 @@ const STAGES: [(f64, f64, usize); 4] = [
     (2e-4, 16.0, 100),
 ];
 
+/// Steps of all stages.
+const MOST_STEPS: f64 = {
+    let [first, second, third, last] = STAGES;
+    (first.2 + second.2 + third.2 + last.2) as f64
+};
+
 /// How often a start from which some columns are not seen, as those of what sets in at a large torque, moves on by so many steps
 /// toward a larger motion.
 const WARMING: usize = 12;
@@ -93,6 +99,8 @@ pub struct Request {
 pub struct Progress {
     /// Motions that were started from, this one among them.
     pub start: usize,
+    /// What part of its steps this start has behind it, of as many as it takes at most: from 0 to 1.
+    pub part: f64,
     /// The best value of the criterion so far.
     pub best: Option<f64>,
 }
@@ -141,11 +149,14 @@ impl Request {
         let (mut starts, stopped) = (0, Cell::new(false));
         for start in 0..self.starts.max(1) {
             let value = |best: &Option<(f64, Fourier)>| best.as_ref().map(|best| best.0);
-            let so_far = Progress {
-                start: start + 1,
-                best: value(&best),
-            };
+            let steps = Cell::new(0);
             let go_on = || {
+                let so_far = Progress {
+                    start: start + 1,
+                    part: (f64::from(steps.get()) / MOST_STEPS).min(1.0),
+                    best: value(&best),
+                };
+                steps.set(steps.get() + 1);
                 stopped.set(stopped.get() || !watch(so_far));
                 !stopped.get()
             };

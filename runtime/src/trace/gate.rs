@@ -278,16 +278,20 @@ impl Judged<'_> {
 
     /// What is told of it.
     pub(super) fn told(&self, round: usize) -> Tried {
-        let changed = self.changed.as_ref().map(|changed| &changed.shapes);
+        let candidate = self.trial.candidate;
+        let (shapes, follows_torque) = match &self.changed {
+            Some(changed) => (&changed.shapes, changed.follows_torque),
+            None => (&self.trial.shapes, candidate.follows_torque()),
+        };
         Tried {
             round,
-            kind: self.trial.candidate.kind().to_owned(),
-            effect: self.trial.candidate.effect(),
-            joints: self.trial.candidate.joints().to_vec(),
-            shapes: changed.unwrap_or(&self.trial.shapes).clone(),
+            kind: candidate.kind().to_owned(),
+            effect: candidate.effect(),
+            joints: candidate.joints().to_vec(),
+            shapes: shapes.clone(),
             evidence: self.evidence.clone(),
             refusals: self.refusals.clone(),
-            follows_torque: self.trial.candidate.follows_torque(),
+            follows_torque,
         }
     }
 }
