@@ -10,7 +10,7 @@ pub(crate) mod factor_file;
 pub(crate) mod far;
 pub(crate) mod fit;
 mod fixed;
-mod hidden_delay;
+pub(crate) mod hidden_delay;
 mod large;
 mod leftover;
 mod likeness;

@@ -5,6 +5,7 @@ use robot_model::trace::{Floor, Outcome};
 use robot_model_spec::model::{EffectExpr, EffectLeaf, Expr, Signal};
 
 use crate::close_the_loop::Loop;
+use crate::identify::hidden_delay;
 use crate::identify::noted::mixed;
 use crate::output::{names, significant};
 
@@ -27,6 +28,7 @@ pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
         .chain(said_of_doubtful(closed))
         .chain(impossible(closed))
         .chain(of_springs(closed))
+        .chain(hidden_delay(closed))
         .chain(beyond_floor(closed));
     of_logs
         .chain(not_borne_out(closed))
@@ -92,6 +94,14 @@ fn relative_percent(closed: &Loop) -> Option<(&[f64], &[f64])> {
     let after = closed.after();
     let unseen = &after.validation.as_ref()?.relative_percent;
     Some((unseen, &after.estimate.relative_percent))
+}
+
+/// That the amended model shows a delay which the declared one, with more in its residual, did not.
+fn hidden_delay(closed: &Loop) -> Option<String> {
+    let late = hidden_delay::said(&closed.changed.as_ref()?.estimate)?;
+    Some(format!(
+        "with what was found, {late}: a small delay, or friction that is still another law"
+    ))
 }
 
 /// That a spring which was found may have a share of its motor in it.
