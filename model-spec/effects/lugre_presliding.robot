@@ -11,6 +11,9 @@
 /// Confused with `dahl`: with `rise = 0` and without `s1` it is the same. Distinguished by slow motion over longer travels,
 /// where friction falls with speed, and by fast reversals.
 ///
+/// Confused with `cable_hysteresis`: after a reversal both build up over a travel, and loops differ in how they bend. Distinguished
+/// by reversals at several amplitudes, and by slow motion over longer travels, where friction of bristles falls with speed.
+///
 /// Confused with `stribeck`, `coulomb_friction`: over distances much longer than `d` bristles slide, and friction only depends
 /// on the speed. Distinguished by reversals after a short travel.
 effect lugre_presliding(j) {

@@ -3,7 +3,7 @@
 use super::verdict::Evidence;
 
 /// Family-wise error rate of the score, for laws that do not take much off the errors.
-const SIGNIFICANCE: f64 = 1e-3;
+pub(super) const SIGNIFICANCE: f64 = 1e-3;
 
 /// What takes as much off a joint's error that was not fitted, and off the raw one, needs no more of a score than this: a short log has few
 /// blocks, whose score may be no more beyond chance than that.

@@ -5,15 +5,15 @@
 //! right one is encompassed by none, nor is one by a law whose parameters have the wrong signs, or that leaves a larger error on some joint by
 //! more than noise.
 
+use super::chance::SIGNIFICANCE;
 use super::gate::{self, Judged};
 use super::gram::Gram;
 use super::score::Present;
 use super::search::{Search, State};
 
-/// From which chance on it counts as nothing: a slow wander of the zero bends any law a little. Up to which it counts as more, of all rivals
-/// together: that something is there has been asked before, and with a level that many candidates need; here two names have even claims.
+/// From which chance on it counts as nothing; as more it counts up to that up to which an effect is named, of all rivals together. A slow
+/// wander of the zero bends any law a little.
 const NOTHING: f64 = 1e-2;
-const MORE: f64 = 0.05;
 
 /// Held-out errors within this of each other are alike, percent: the error of a joint that neither effect touches is not the same in two
 /// fits.
@@ -30,7 +30,7 @@ impl Search<'_> {
     ) -> bool {
         one.keeps_signs
             && gate::worse_percent(&one.raw_power, &other.raw_power) < ALIKE_PERCENT
-            && rivals as f64 * self.beside(state, one, other) < MORE
+            && rivals as f64 * self.beside(state, one, other) < SIGNIFICANCE
             && self.beside(state, other, one) > NOTHING
     }
 
