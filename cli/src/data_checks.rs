@@ -47,10 +47,7 @@ const MENDED: [(&str, &[&str]); 7] = [
         &["slips", "wrapped"],
     ),
     ("torques at a limit", &["clipped"]),
-    (
-        VELOCITIES,
-        &["velocity-late", "velocity-scale"],
-    ),
+    (VELOCITIES, &["velocity-late", "velocity-scale"]),
     (
         "channels that are constant",
         &["still", "at-rest", "constant"],

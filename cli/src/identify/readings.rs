@@ -1,5 +1,5 @@
 //! Whether a log is to be read in another way than the spec says, asked of its torques: angles in another unit, columns of another sign or in
-//! another order, positions for torques, gravity along another axis.
+//! another order, gravity along another axis.
 //!
 //! In: logs whose torques a model does not explain. Out: a sentence about the reading with which it explains them far better, if any.
 
@@ -47,8 +47,6 @@ enum Reading {
     Mirrored(Channel, usize),
     /// Joint `k` of the spec has the columns of joint `order[k]`.
     Ordered(Columns, Vec<usize>),
-    /// Positions are torques, and torques positions.
-    Exchanged,
     /// The arm stands otherwise: gravity in the base frame, m/s^2.
     Gravity([f64; 3]),
 }
@@ -79,13 +77,6 @@ impl Reading {
                 columns[*joint]
                     .iter_mut()
                     .for_each(|value| *value = -*value);
-            }
-            Self::Exchanged => {
-                std::mem::swap(&mut read.q, &mut read.tau);
-                // They are of neither.
-                read.dq.clear();
-                read.clipped.clear();
-                read.turn_speeds.clear();
             }
             Self::Gravity(_) => {}
             Self::Ordered(columns, order) => {
@@ -121,10 +112,6 @@ impl Reading {
                     ),
                 ]
             }
-            Self::Exchanged => [
-                "positions as torques and torques as positions".to_owned(),
-                "are the columns named the other way round? Name them in the spec's `log`, or in a `robot-model.toml`".to_owned(),
-            ],
             Self::Gravity(gravity) => gravity::said(*gravity),
             Self::Ordered(columns, order) => {
                 let columns = match columns {
@@ -188,9 +175,6 @@ pub(crate) fn others(
             channels.map(|channel| Reading::Mirrored(channel, joint))
         });
         candidates.extend(signs.filter_map(|reading| asked.read(reading)));
-    }
-    if worst > WELL {
-        candidates.extend(asked.read(Reading::Exchanged));
     }
     let ill = found.relative_percent.iter().map(|left| *left > WELL);
     let ill: Vec<bool> = ill.collect();

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use crate::log::Log;
 use crate::signal::resample::whole_steps;
+use crate::signal::white_noise;
 
 /// Length of a block, s, and the samples that it has at least.
 pub(super) const BLOCK_S: f64 = 0.05;
@@ -97,13 +98,6 @@ pub(super) fn encoder_step(q: &[f64]) -> f64 {
     if least.is_finite() { least } else { 0.0 }
 }
 
-/// Deviation of white noise, from third differences, in which motion is nothing.
-fn white(q: &[f64]) -> f64 {
-    let third = q.windows(4).map(|q| q[3] - 3.0 * (q[2] - q[1]) - q[0]);
-    let count = q.len().saturating_sub(3).max(1) as f64;
-    (third.map(|x| x * x).sum::<f64>() / (20.0 * count)).sqrt()
-}
-
 impl Stretch {
     /// All of a log in which joint `joint`, from 0, moves and the others stand, in the order of time; none within its holes.
     ///
@@ -153,7 +147,7 @@ impl Stretch {
 
     /// Whether what lines leave of the positions is the encoder's, and no motion of its own.
     fn is_smooth(&self, lines: &[Line], q: &[f64], block: usize, step: f64, encoder: f64) -> bool {
-        let noise = (2.0 * white(&q[self.samples.clone()])).max(0.6 * encoder);
+        let noise = (2.0 * white_noise(&q[self.samples.clone()])).max(0.6 * encoder);
         let rest = lines.iter().map(|line| line.rest * line.rest).sum::<f64>() / lines.len() as f64;
         let told = (rest - noise * noise).max(0.0).sqrt();
         // The slowest ripple within a block has the least speed.

@@ -7,6 +7,7 @@ mod close;
 mod columns;
 mod csv;
 mod error;
+mod exchanged;
 mod faults;
 mod foreign;
 mod from_table;
@@ -331,6 +332,8 @@ impl Log {
             self.report.push(Note::ExtraChannels { names });
         }
         self.check_plausible(lines)?;
+        let exchanged = exchanged::note(&self);
+        self.report.extend(exchanged);
         uniform::make_uniform(&mut self, lines, lost)?;
         // Rows that are there twice count once.
         self.check_length()?;

@@ -79,6 +79,8 @@ pub enum Note {
         /// How often and how long.
         at: Stretches,
     },
+    /// All positions have the noise of torques, and no torque has: they may be exchanged.
+    Exchanged,
     /// The last line has no end, and its last number is shorter than the one above it: the file may be cut in it.
     NoLineEnd {
         /// That line.
@@ -131,6 +133,11 @@ impl fmt::Display for Note {
             Self::NoLineEnd { line } => write!(
                 f,
                 "line {line}, the last one, has no end, and its last number is shorter than the one above: if the file was cut there, remove that line"
+            ),
+            Self::Exchanged => write!(
+                f,
+                "positions have far more noise than torques, relative to their size: are these columns exchanged? Name those of `q` and `tau` in the \
+                 spec's `log`, or in a `robot-model.toml`"
             ),
             Self::RowNumbers => write!(
                 f,

@@ -22,7 +22,7 @@ pub use error::SignalError;
 pub use filter::LowPass;
 pub use first_order::FirstOrder;
 pub use noise::acceleration_noise;
-pub(crate) use noise::{MEDIAN_OF_NORMAL, position_noise, raw_acceleration_noise};
+pub(crate) use noise::{MEDIAN_OF_NORMAL, position_noise, raw_acceleration_noise, white_noise};
 pub(crate) use prepare::MOTION_ORDER;
 pub use prepare::{Bands, Prepared, prepare, prepare_velocities};
 pub(crate) use repeat::period;

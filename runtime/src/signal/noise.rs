@@ -87,6 +87,13 @@ pub(crate) fn position_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f
     Some(densities.collect())
 }
 
+/// Deviation of a signal's white noise, from third differences, in which motion is nothing.
+pub(crate) fn white_noise(values: &[f64]) -> f64 {
+    let third = values.windows(4).map(|x| x[3] - 3.0 * (x[2] - x[1]) - x[0]);
+    let count = values.len().saturating_sub(3).max(1) as f64;
+    (third.map(|x| x * x).sum::<f64>() / (20.0 * count)).sqrt()
+}
+
 /// What the motion's filters, there and back, leave of a wave.
 fn passed(hz: f64, cutoff_hz: f64) -> f64 {
     1.0 / (1.0 + (hz / cutoff_hz).powi(2 * ORDER))
