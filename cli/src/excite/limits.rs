@@ -14,10 +14,11 @@ pub(super) fn of(model: &Model, acceleration: Option<&[f64]>) -> Result<Limits, 
     let mut limits = Limits::none(joints.len());
     let given = per_joint("--acceleration", acceleration, joints.len())?;
     let is_limited = |joint: &Joint| joint.limits.acceleration.is_some();
-    if given.iter().flatten().any(|x| x.is_nan() || *x <= 0.0) {
-        return Err(Error::Argument(
-            "--acceleration: a limit must be positive".to_owned(),
-        ));
+    let mut all = given.iter().flatten();
+    if let Some(other) = all.find(|x| x.is_nan() || **x <= 0.0) {
+        return Err(Error::Argument(format!(
+            "--acceleration: {other} is no limit; write a positive number, one for all joints or one for each"
+        )));
     }
     if given.is_some() && joints.iter().all(is_limited) {
         return Err(Error::Argument(format!(

@@ -78,7 +78,9 @@ fn made(folder: &Path) -> Result<MadeFolder, Error> {
         let file = around.find(|path| path.is_file());
         let reason = match file {
             Some(file) => format!("`{}` is not a folder", file.display()),
-            None => format!("the folder of a report cannot be created: {error}"),
+            None => format!(
+                "the folder of a report cannot be created: {error}; choose one in a folder where you may write"
+            ),
         };
         Error::Write {
             path: folder.to_owned(),

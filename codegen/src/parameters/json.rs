@@ -18,6 +18,26 @@ const OF_A_VALUE: usize = 2 * size_of::<Value>();
 /// Bytes of an object with something in it: one node of a tree, which has room for eleven keys.
 const OF_AN_OBJECT: usize = 11 * (size_of::<String>() + size_of::<Value>());
 
+/// Line and column of a key's second place, where it is at two in all of a text: the same key may be another object's.
+fn second(text: &str, key: &str) -> Option<(usize, usize)> {
+    let quoted = serde_json::to_string(key).ok()?;
+    let places = text.match_indices(&quoted).map(|(place, _)| place);
+    let is_key = |place: &usize| {
+        let behind = text[place + quoted.len()..].trim_start();
+        behind.starts_with(':')
+    };
+    let places: Vec<usize> = places.filter(is_key).collect();
+    let [_, second] = places[..] else {
+        return None;
+    };
+    let before = &text[..second];
+    let begin = before.rfind('\n').map_or(0, |end| end + 1);
+    Some((
+        before.matches('\n').count() + 1,
+        before[begin..].chars().count() + 1,
+    ))
+}
+
 /// Keys that stand twice are told as far as these.
 const MOST_TOLD: usize = 100;
 
@@ -89,6 +109,10 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
     if twice.is_empty() {
         return Ok(value);
     }
+    let line = match &twice[..] {
+        [key] => second(text, key),
+        _ => None,
+    };
     let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
     let verb = if twice.len() == 1 {
         "appears"
@@ -96,7 +120,7 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         "appear"
     };
     Err(Fault {
-        line: None,
+        line,
         reason: format!(
             "{} {verb} more than once; keep the right value",
             names(&twice)
@@ -260,6 +284,8 @@ mod tests {
     fn keys_that_stand_twice_are_told() {
         let (_, one) = refused(r#"{"a":1,"b":2,"a":1}"#);
         assert_eq!(one, "`a` appears more than once; keep the right value");
+        let (line, _) = refused("{\"b.a\": 1,\n  \"b.a\": 2}");
+        assert_eq!(line, Some((2, 3)));
         let (_, several) = refused(r#"{"c":[{"b":1},{"d":{"a":1,"a":2,"a":3}}],"b":2,"b":{}}"#);
         assert_eq!(
             several,

@@ -347,6 +347,13 @@ fn check_header(source: &str, line: u64, names: &[String]) -> Result<(), LogErro
         }
         .into());
     }
+    if names[0].starts_with(['{', '[']) {
+        return Err(TextError::Json {
+            source_name: source.to_owned(),
+            line,
+        }
+        .into());
+    }
     if let [name] = names {
         return Err(TextError::Separator {
             source_name: source.to_owned(),

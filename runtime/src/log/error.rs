@@ -306,8 +306,7 @@ pub enum LogError {
     },
     /// Time repeats or runs back.
     #[error(
-        "{place}: time does not increase: {time} s follows {previous} s; remove the row if it is a duplicate, or split the log here and \
-         give both parts"
+        "{place}: time does not increase: {time} s follows {previous} s; {way_out}"
     )]
     TimeOrder {
         /// File and line, or log and sample.
@@ -316,6 +315,8 @@ pub enum LogError {
         time: f64,
         /// Time stamp before.
         previous: f64,
+        /// What may be done about it.
+        way_out: &'static str,
     },
     /// Samples are missing.
     #[error(

@@ -37,8 +37,8 @@ impl Log {
             let first = first.to_string();
             report.push(Note::LostRows { rows, first });
         }
-        if header.is_standard_instead {
-            report.push(Note::StandardColumns);
+        if let Some(missing) = header.instead_of.clone() {
+            report.push(Note::StandardColumns { missing });
         }
         if !words.is_empty() {
             let names = words.into_iter().map(|(name, _)| name.clone()).collect();

@@ -24,8 +24,8 @@ pub(super) struct Header {
     pub extra: Vec<(String, Place)>,
     /// So many of them the arm has names for.
     declared: usize,
-    /// The file has the standard columns in place of the arm's own.
-    pub is_standard_instead: bool,
+    /// The arm's own columns, where the file has the standard ones in place of them.
+    pub instead_of: Option<Vec<String>>,
     /// What was assumed of the columns.
     pub notes: Vec<Note>,
 }
@@ -75,7 +75,7 @@ impl Header {
             let standard = Columns::standard(columns.dof());
             if let Ok(header) = Self::find(place, names, &standard) {
                 return Ok(Self {
-                    is_standard_instead: true,
+                    instead_of: Some(own.into_iter().map(str::to_owned).collect()),
                     ..header
                 });
             }
@@ -136,7 +136,7 @@ impl Header {
                 tau,
                 extra,
                 declared,
-                is_standard_instead: false,
+                instead_of: None,
                 notes: Vec::new(),
             })
         } else {

@@ -25,7 +25,10 @@ pub enum Note {
         names: Vec<String>,
     },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
-    StandardColumns,
+    StandardColumns {
+        /// Those that were asked for.
+        missing: Vec<String>,
+    },
     /// Lines above the header that are no comments.
     Above {
         /// How many.
@@ -115,9 +118,10 @@ impl fmt::Display for Note {
                 "columns with numbers in only some rows are interpolated: {}",
                 list(names)
             ),
-            Self::StandardColumns => write!(
+            Self::StandardColumns { missing } => write!(
                 f,
-                "it lacks the columns named by the spec's `log` or its settings, but has `time`, `q1` and so on: these are read, in SI units (torques in what the joint's `actuator_gain` takes, if it has one)"
+                "it lacks the columns named by the spec's `log` or its settings ({}), but has `time`, `q1` and so on: these are read, in SI units (torques in what the joint's `actuator_gain` takes, if it has one)",
+                list(missing)
             ),
             Self::Above {
                 lines,

@@ -6,6 +6,25 @@ use crate::signal::resample;
 /// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
 const UNIFORM_SHARE: f64 = 0.01;
 
+/// Rows run backwards, or stamps are rounded, where so many steps fall, or are nothing.
+const MOST: f64 = 0.9;
+const MANY: f64 = 0.1;
+
+/// What is to be done about time that does not rise everywhere.
+fn way_out(steps: &[f64]) -> &'static str {
+    let share = |is: &dyn Fn(f64) -> bool| {
+        let count = steps.iter().filter(|step| is(**step)).count();
+        count as f64 / steps.len() as f64
+    };
+    if share(&|step| step < 0.0) > MOST {
+        "the rows run backwards: sort them by time"
+    } else if share(&|step| step == 0.0) > MANY {
+        "many rows have the time of the row before: write time stamps with more digits"
+    } else {
+        "remove the row if it is a duplicate, or split the log here and give both parts"
+    }
+}
+
 /// Refuses time that does not rise, but for rows that are there again, or has long gaps, fills short ones, makes one sample of those that nearly
 /// coincide, and moves all channels onto a uniform grid where they are not on one.
 pub(super) fn make_uniform(
@@ -25,6 +44,7 @@ pub(super) fn make_uniform(
             place: place(k + 1),
             time: time[k + 1],
             previous: time[k],
+            way_out: way_out(&steps),
         });
     }
     let median = median(&rising);
@@ -76,5 +96,22 @@ fn median(values: &[f64]) -> f64 {
         sorted[middle]
     } else {
         0.5 * (sorted[middle - 1] + sorted[middle])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::way_out;
+
+    #[test]
+    fn rows_that_run_backwards_and_rounded_stamps_have_their_way_out() {
+        assert!(way_out(&[-0.1; 20]).starts_with("the rows run backwards"));
+        let mut steps = vec![0.01; 20];
+        steps[7] = 0.0;
+        assert!(way_out(&steps).starts_with("remove the row"));
+        for step in steps.iter_mut().step_by(2) {
+            *step = 0.0;
+        }
+        assert!(way_out(&steps).starts_with("many rows have the time"));
     }
 }

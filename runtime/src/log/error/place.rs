@@ -102,6 +102,7 @@ impl TextError {
     fn place(&self) -> Option<TextPlace<'_>> {
         let (source_name, line, words) = match self {
             Self::NoHeader { source_name, line }
+            | Self::Json { source_name, line }
             | Self::Separator {
                 source_name, line, ..
             }

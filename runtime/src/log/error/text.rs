@@ -51,6 +51,16 @@ pub enum TextError {
         /// The most that are taken.
         most: u64,
     },
+    /// The text is JSON.
+    #[error(
+        "{source_name}:{line}: this looks like JSON, and logs are CSV (plain or gzip), Parquet or MCAP; parameter files go behind `--parameters`"
+    )]
+    Json {
+        /// The file.
+        source_name: String,
+        /// Its first line.
+        line: u64,
+    },
     /// The header has one field.
     #[error(
         "{source_name}:{line}: the header `{header}` is one column; write one name per column, separated by `,`, `;`, `|`, tabs or blanks"

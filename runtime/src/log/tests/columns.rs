@@ -68,7 +68,12 @@ fn standard_columns_stand_in_for_others() {
     let log = read("time,q1,tau1").expect("a sound log");
     assert_eq!(
         (log.tau[0][3], &log.report[0]),
-        (6.0, &Note::StandardColumns)
+        (
+            6.0,
+            &Note::StandardColumns {
+                missing: vec!["current".to_owned()]
+            }
+        )
     );
     let log = read("time,q1,current").expect("a sound log");
     assert_eq!((log.tau[0][3], log.report.len()), (12.0, 0));

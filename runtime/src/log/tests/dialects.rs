@@ -223,6 +223,15 @@ fn blanks_and_bars_separate_columns() {
     );
 }
 
+/// What `identify --json` wrote, say.
+#[test]
+fn json_is_told_as_what_it_is() {
+    assert_eq!(
+        refusal("{\n  \"parameters\": []\n}\n", 1),
+        "monday.csv:1: this looks like JSON, and logs are CSV (plain or gzip), Parquet or MCAP; parameter files go behind `--parameters`"
+    );
+}
+
 #[test]
 fn utf16_behind_its_mark_is_read() {
     let all = format!("\u{feff}{}", text("time,q1,tau1", &rows(40)));
