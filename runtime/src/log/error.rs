@@ -305,9 +305,7 @@ pub enum LogError {
         source_name: String,
     },
     /// Time repeats or runs back.
-    #[error(
-        "{place}: time does not increase: {time} s follows {previous} s; {way_out}"
-    )]
+    #[error("{place}: time does not increase: {time} s follows {previous} s; {way_out}")]
     TimeOrder {
         /// File and line, or log and sample.
         place: String,
