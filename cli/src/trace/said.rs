@@ -28,7 +28,7 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         Outcome::Explained if has_faults => {
             "the faults of the logs explain the residual of the declared model"
         }
-        Outcome::Explained if !closed.verdict.left.is_empty() => {
+        Outcome::Explained if leaves_more(closed) => {
             "these effects explain most of the residual of the declared model; where the rest is, follows below"
         }
         Outcome::Explained => "these effects explain the residual of the declared model",
@@ -73,13 +73,15 @@ const fn unexplained(along: Along, has_leads: bool) -> &'static str {
     }
 }
 
-/// What stands behind `explained` in a headline where structure is left.
+/// Whether structure is left beside what explains most of it, or far more than noise.
+fn leaves_more(closed: &Loop) -> bool {
+    let mut floors = closed.verdict.noise_floor.iter();
+    !closed.verdict.left.is_empty() || floors.any(|floor| floor.exceeded().is_some())
+}
+
+/// What stands behind `explained` in a headline where more is left than should be.
 pub(super) fn in_part(closed: &Loop) -> &'static str {
-    if closed.verdict.left.is_empty() {
-        ""
-    } else {
-        " in part"
-    }
+    if leaves_more(closed) { " in part" } else { "" }
 }
 
 /// Why the spec is as it was; none where it is not.

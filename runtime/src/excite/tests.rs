@@ -284,6 +284,30 @@ fn stopped_early_it_has_the_best_so_far() {
     assert!(design.stopped && design.starts == 1 && design.quality.violation == 0.0);
 }
 
+/// From one step to the next, and from nothing on with every start.
+#[test]
+fn a_start_tells_what_part_of_its_steps_is_behind_it() {
+    let told = std::cell::RefCell::new(Vec::new());
+    let mut request = request(Criterion::DOptimal);
+    request.starts = 2;
+    let design = request.run(&|progress| {
+        told.borrow_mut().push((progress.start, progress.part));
+        true
+    });
+    assert_eq!(design.expect("room").starts, 2);
+    let told = told.into_inner();
+    for pair in told.windows(2) {
+        let [(start, part), (next, more)] = [pair[0], pair[1]];
+        let is_on = if next == start {
+            more > part
+        } else {
+            more == 0.0
+        };
+        assert!(is_on && more <= 1.0, "{pair:?}");
+    }
+    assert!(told.len() > 10 && told.last().is_some_and(|last| last.0 == 2));
+}
+
 #[test]
 fn what_leaves_no_motion_is_told() {
     let refused = |change: &dyn Fn(&mut Request)| {
