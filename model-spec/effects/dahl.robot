@@ -10,11 +10,10 @@
 /// Confused with `coulomb_friction`: over distances much longer than `d` it is the same. Distinguished by reversals after a
 /// short travel.
 effect dahl(j) {
-    kind lugre_presliding;
     /// Torque of sliding, N m (N for a prismatic joint).
     linear fc >= 0;
     /// Distance over which friction builds up, rad (m for a prismatic joint).
-    shape d in 1e-4 .. 0.5;
+    shape d in 1e-4 .. 0.3;
     /// Torque over that of sliding.
     state z;
     dot(z) = (dq(j) - abs(dq(j)) * z) / d;

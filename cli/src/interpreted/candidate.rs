@@ -25,11 +25,10 @@ impl InterpretedArm {
             .map(AsRef::as_ref)
             .filter(|definition| may_be_tried(definition, model))
             .collect();
-        // What reports call by another law's name is that law with fewer parameters, which is what should be named where it is enough.
-        let is_named = |definition: &EffectDefinition| definition.kind != definition.name;
         let definitions = tried.iter().filter(|definition| {
-            let mut others = tried.iter();
-            is_named(definition) || !others.any(|other| is_case_of(model, definition, other))
+            !tried
+                .iter()
+                .any(|other| is_case_of(model, definition, other))
         });
         for definition in definitions {
             let mut seen: Vec<(BTreeSet<usize>, Vec<Entry>)> = Vec::new();

@@ -5,7 +5,9 @@ mod parting;
 
 use std::fmt::Write as _;
 
-use robot_model_cli::interpreted::is_tried;
+use robot_model::columns::Candidate;
+use robot_model_cli::interpreted::{InterpretedArm, is_tried};
+use robot_model_codegen::compile_model;
 use robot_model_spec::model::{Act, EffectDefinition};
 use robot_model_spec::standard_effects;
 
@@ -59,7 +61,9 @@ fn title(effect: &EffectDefinition) -> String {
 
 /// What reports and JSON call it.
 fn traced(effect: &EffectDefinition) -> String {
-    if is_tried(effect) {
+    if effect.acts.is_empty() && is_tried(effect) && !is_candidate(effect) {
+        "not tried: a case of another law, which is".to_owned()
+    } else if is_tried(effect) {
         let [name, kind] = [&effect.name, &effect.kind].map(|one| one.replace('_', "-"));
         if name == kind {
             format!("`{name}`")
@@ -69,6 +73,21 @@ fn traced(effect: &EffectDefinition) -> String {
     } else {
         "not tried: a sum of other laws, which are".to_owned()
     }
+}
+
+/// Whether a law of torques is tried by itself, on an arm that declares nothing.
+fn is_candidate(effect: &EffectDefinition) -> bool {
+    const ARM: &str = "robot Arm {
+        gravity = [0, 0, -9.81];
+        convention = standard_dh;
+        joint shoulder: revolute { a = 0.5; alpha = 0; d = 0; }
+        joint elbow: revolute { a = 0.4; alpha = 90 deg; d = 0; }
+        joint wrist: revolute { a = 0; alpha = 0; d = 0.1; }
+    }";
+    let model = robot_model_spec::load("arm.robot", ARM).expect("a sound spec");
+    let candidates = InterpretedArm::new(compile_model(&model)).candidates();
+    let mut names = candidates.iter().map(Candidate::effect);
+    names.any(|name| name == effect.name)
 }
 
 /// What it does to the torque, in a word for a table.

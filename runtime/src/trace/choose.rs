@@ -2,7 +2,6 @@
 
 use super::gate::{self, Judged, MATERIAL_PERCENT};
 use super::search::{Accepted, OwnShapes, is_of_phase};
-use super::trial::Trial;
 use super::verdict::Alternative;
 
 /// Of the power that a law of the part of a period explains, how much one of the motion has to explain to go before it.
@@ -55,7 +54,6 @@ pub(super) fn choose<'a>(
         }
     }
     let chosen = class.remove(place);
-    class.retain(|rival| !is_same_law(&rival.trial, &chosen.trial));
     let rivals = class
         .into_iter()
         .map(|rival| {
@@ -76,13 +74,6 @@ pub(super) fn choose<'a>(
         trial: chosen.trial,
         rivals,
     })
-}
-
-/// Whether two laws are one with more and fewer parameters, as Dahl's friction is of bristles: no alternatives. A contact of the time and one of
-/// the part of a period have one kind, too, and are none of each other.
-fn is_same_law(one: &Trial, other: &Trial) -> bool {
-    let [one, other] = [one, other].map(|trial| trial.candidate);
-    one.kind() == other.kind() && one.joints() == other.joints() && !one.is_of_time()
 }
 
 /// In how many folds the error of `one` is larger than that of `other`, and of how many; none where folds are not the same.

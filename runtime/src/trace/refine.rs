@@ -14,10 +14,6 @@ use super::trial::{Presence, Trial, presence};
 const HARDLY: f64 = 1e-3;
 const HARDLY_OF_REST: f64 = 0.05;
 
-/// A law with a shape at zero is a simpler one, and is taken where it leaves more by less than this share: about what a parameter takes off noise
-/// with a hundred independent samples.
-const SIMPLER: f64 = 0.01;
-
 /// A shape with so few values on its grid is begun at each of them.
 const COARSE: usize = 3;
 
@@ -73,8 +69,7 @@ impl Trial<'_> {
                 }
             }
         }
-        let mut best = best.simpler(&explained, rows);
-        best = best.away_from_ends(&explained, rows);
+        let mut best = best.away_from_ends(&explained, rows);
         let presence = presence(best.candidate, &best.shapes, rows.logs);
         // A law with one shape has one end at most, and may be nothing at the first sample alone, as what drifts from there on is.
         if best.shapes.len() > 1 || presence == Presence::ComesAndGoes {
@@ -179,25 +174,6 @@ impl Trial<'_> {
         })
     }
 
-    /// With a shape at zero, where its range begins there and the law explains next to nothing less: on a flat ridge it stays anywhere. When a law
-    /// of time sets in is no such shape.
-    fn simpler(mut self, explained: &Explained, rows: Rows) -> Self {
-        if self.candidate.is_of_time() {
-            return self;
-        }
-        for number in 0..self.shapes.len() {
-            if self.candidate.shapes()[number].grid[0] != 0.0 {
-                continue;
-            }
-            let zero = self.with(number, 0.0, rows);
-            let [most, of_zero] = [&self, &zero].map(|trial| explained.drop(trial));
-            if most - of_zero < SIMPLER * (explained.power - most) {
-                self = zero;
-            }
-        }
-        self
-    }
-
     /// With one shape at another value.
     fn with(&self, number: usize, value: f64, rows: Rows) -> Self {
         let mut shapes = self.shapes.clone();
@@ -208,8 +184,7 @@ impl Trial<'_> {
     /// A shape of which hardly anything changes near the end of its range is at no end: it takes the next value of its grid.
     fn away_from_ends(mut self, explained: &Explained, rows: Rows) -> Self {
         for number in 0..self.shapes.len() {
-            let is_simpler = self.is_at_zero(number) && !self.candidate.is_of_time();
-            if self.is_within(number) || is_simpler {
+            if self.is_within(number) {
                 continue;
             }
             let grid = &self.candidate.shapes()[number].grid;

@@ -178,7 +178,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Whether a shape stands at zero, where its range begins.
-    pub(super) fn is_at_zero(&self, number: usize) -> bool {
+    fn is_at_zero(&self, number: usize) -> bool {
         let grid = &self.candidate.shapes()[number].grid;
         let edge = END_SHARE * (grid[grid.len() - 1] - grid[0]);
         grid[0] == 0.0 && self.shapes[number] < edge

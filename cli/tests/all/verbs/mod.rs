@@ -9,7 +9,6 @@ mod audit_seeds;
 mod bags;
 mod bending;
 mod bodies;
-mod bristles;
 mod c;
 mod calibrate;
 mod changes;
