@@ -104,10 +104,6 @@ fn slips_in_a_parameter_file_are_told() {
     let forms =
         "write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`";
     for (text, said) in [
-        (
-            r#"{"cart.m": 3, "cart.m": 4, "rail.viscous_friction.fv": 5}"#,
-            "`cart.m` appears more than once; keep the right value".to_owned(),
-        ),
         ("[3, 5]", format!("it is a list: {forms}")),
         (
             r#"{"parameters": [{"name": "cart.m", "value": 3}, {"value": 5}]}"#,
@@ -121,6 +117,12 @@ fn slips_in_a_parameter_file_are_told() {
             "{text}"
         );
     }
+    folder.write("parameters.json", "{\"cart.m\": 3, \"cart.m\": 4}\n");
+    assert_eq!(
+        folder.refuse(&CART_WITH_PARAMETERS),
+        "error: parameters.json:1:15: `cart.m` appears more than once; keep the right value\n  |\n1 | {\"cart.m\": 3, \"cart.m\": 4}\n  | \
+         \u{20}             ^\n"
+    );
     // What is no number is shown where its name stands.
     for (text, said) in [
         (

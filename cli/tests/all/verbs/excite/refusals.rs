@@ -27,7 +27,10 @@ fn what_leaves_no_design_is_told() {
         ),
         (["--json", "arm.robot"], "same file as the input"),
         (["--acceleration", "5"], "has one for each"),
-        (["--acceleration", "0"], "a limit must be positive"),
+        (
+            ["--acceleration", "0"],
+            "0 is no limit; write a positive number",
+        ),
     ] {
         let said = refused(&arguments);
         assert!(said.contains(word), "{arguments:?}: {said}");
