@@ -152,21 +152,7 @@ impl fmt::Display for Note {
                 line,
                 said,
                 against,
-            } => {
-                match line {
-                    Some(line) => write!(f, "line {line} says units: ")?,
-                    None => write!(f, "the file's schema says units: ")?,
-                }
-                match (said.is_empty(), against.is_empty()) {
-                    (true, true) => write!(f, "settings say the same"),
-                    (false, true) => write!(f, "{} are read so", said.join(", ")),
-                    (true, false) => contradicted(f, against),
-                    (false, false) => {
-                        write!(f, "{} are read so; ", said.join(", "))?;
-                        contradicted(f, against)
-                    }
-                }
-            }
+            } => of_units(f, *line, said, against),
             Self::Clock { first } => write!(
                 f,
                 "time is given as times of day: it is read as seconds since the first, `{first}`"
@@ -218,6 +204,28 @@ impl fmt::Display for Note {
 fn milliseconds(seconds: f64) -> String {
     let text = format!("{:.4}", seconds * 1e3);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// What a line of units, or a schema, says: which columns are read so, and which settings contradict.
+fn of_units(
+    f: &mut fmt::Formatter<'_>,
+    line: Option<u64>,
+    said: &[String],
+    against: &[String],
+) -> fmt::Result {
+    match line {
+        Some(line) => write!(f, "line {line} says units: ")?,
+        None => write!(f, "the file's schema says units: ")?,
+    }
+    match (said.is_empty(), against.is_empty()) {
+        (true, true) => write!(f, "settings say the same"),
+        (false, true) => write!(f, "{} are read so", said.join(", ")),
+        (true, false) => contradicted(f, against),
+        (false, false) => {
+            write!(f, "{} are read so; ", said.join(", "))?;
+            contradicted(f, against)
+        }
+    }
 }
 
 /// That settings and a line of units contradict each other.
