@@ -66,6 +66,7 @@ mod reproducible;
 mod separable;
 mod shells;
 mod simulate;
+mod simulate_refused;
 mod slips;
 mod slower;
 mod starts;
